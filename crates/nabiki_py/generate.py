@@ -53,7 +53,8 @@ def types(schema):
         read, _ = types(schema["items"])
         if count := schema.get("maxItems"):
             return f"tuple[{', '.join([read] * count)}]", "Numbers"
-        return f"tuple[{read}, ...]", "Numbers" if read == "float" else f"Sequence[{read}]"
+        given = [] if read == "float" else [f"Sequence[{read}]"]
+        return f"tuple[{read}, ...]", " | ".join(["Numbers"] * read.startswith("float") + given)
     if schema.get("format") == "path":
         return "str", "File"
     name = {"number": "float", "integer": "int", "boolean": "bool", "string": "str"}[schema["type"]]
@@ -201,6 +202,14 @@ def modules(schema):
     return result
 
 
+def flat(schema):
+    """What a setting may be, choices within choices one after another."""
+    for kind in schema.get("anyOf", []):
+        yield from flat(kind)
+    if "anyOf" not in schema:
+        yield schema
+
+
 def blender(schema):
     """The module of the extension: what a property of each setting is made with."""
     tables = {table.key: schema.kinds(table)[0][1] for table in schema.tables if not table.many}
@@ -208,7 +217,7 @@ def blender(schema):
     for key in SHOWN:
         table, name = key.split(".")
         setting = tables[table][name]
-        kinds = setting.schema.get("anyOf", [setting.schema])
+        kinds = list(flat(setting.schema))
         number = next((kind for kind in kinds if kind.get("type") in ("number", "integer")), {})
         unit = setting.schema.get("x-unit")
         values = {

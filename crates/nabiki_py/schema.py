@@ -107,11 +107,16 @@ def bounds(schema):
 
 def in_words(schema):
     if "anyOf" in schema:
-        return choice([in_words(of) for of in schema["anyOf"]])
+        kinds = schema["anyOf"]
+        # What a list of several kinds holds was said just before.
+        said = [in_words(of) if of.get("items", {}).get("anyOf") is None else "a list of them" for of in kinds]
+        return choice(said)
     if "$ref" in schema:
         return f"a table of `{schema['$ref'].rpartition('/')[2]}`"
     if "enum" in schema:
         return choice([f'`"{word}"`' for word in schema["enum"]])
+    if "x-units" in schema:
+        return choice([f'`"... {unit}"`' for unit in schema["x-units"]])
     kind = schema["type"]
     if kind == "array":
         items, count = schema["items"], schema.get("maxItems")

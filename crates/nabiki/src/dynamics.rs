@@ -39,7 +39,7 @@ use crate::strands::Strands;
 use crate::{settings, words};
 
 pub use free::substeps;
-pub use gain::{earth_gravity, gain, period, push};
+pub use gain::{carrying_force, earth_gravity, gain, period, push, stiffness_of};
 pub use reference::Reference;
 pub use simulation::{Simulation, VectorWidth};
 pub(crate) use stability::Stability;
@@ -55,7 +55,7 @@ settings! {
         /// Frames after the rest frame 0 (N_f).
         pub frames: u32 = 100 => "Frames", least 1.0, most Motion::MOST_FRAMES as f64;
         /// Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames: of its settings only
-        /// `gravity = "earth"` depends on this.
+        /// those in units of the world depend on this.
         pub frame_rate: f64 = 24.0 => "Frame rate", unit "a second", above 0.0;
         /// Delta t of equation (7), in a unit of the step's own: a frame is one step.
         pub time_step: f32 = 0.1 => "Time step", above 0.0;

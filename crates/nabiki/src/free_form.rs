@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
 use crate::chance::Chance;
@@ -11,7 +10,6 @@ use crate::error::SettingError;
 use crate::locks::{Lock, Locks, Own, Variation};
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
-use crate::setting::{Datum, Kind, Place, Range, Value, Word};
 use crate::settings;
 use crate::strands::Strands;
 
@@ -30,8 +28,8 @@ settings! {
         /// Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. One number, or a list
         /// from root to tip, interpolated in frames: next to a 0 hair hardly swings.
         pub settle: Profile = Profile::Even(20.0) => "Settle", unit "frames", least 0.0;
-        /// How fast moved hair falls. A strength, or "earth" for 981 cm/s^2 at `motion.frame_rate`. Hair at rest does not sag.
-        pub gravity: Gravity = Gravity::Strength(100.0) => "Weight", least 0.0, most 1e9;
+        /// How fast moved hair falls; [`earth_gravity`](crate::dynamics::earth_gravity) is that of the earth. Hair at rest does not sag.
+        pub gravity: f32 = 100.0 => "Weight", least 0.0, most 1e9;
         /// How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or a list from root to
         /// tip. It weighs the head's turn, its acceleration and the pull of the still air.
         pub drag: Profile = Profile::Even(1.0) => "Drag", least 0.0, most 10.0;
@@ -46,61 +44,6 @@ settings! {
         /// Steps that a frame is divided into. Left open, a scene takes as many as weight and stiffness need, and at least 2.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub substeps: Option<u32> = None => "Substeps", least 1.0, most 32.0, open "by weight and stiffness";
-    }
-}
-
-/// The weight of hair.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(untagged, expecting = "must be a number of at least 0, or \"earth\"")]
-pub enum Gravity {
-    /// In the unit of the force.
-    Strength(f32),
-    /// That of the earth at the frame rate, for the mean length of all the hair. Steppers take a [`Strength`](Self::Strength) only: see
-    /// [`earth_gravity`](crate::dynamics::earth_gravity).
-    #[serde(with = "earth")]
-    Earth,
-}
-
-/// The word "earth".
-mod earth {
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
-
-    pub fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str("earth")
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-        match String::deserialize(deserializer)?.as_str() {
-            "earth" => Ok(()),
-            other => Err(D::Error::custom(format!("found \"{other}\", must be \"earth\""))),
-        }
-    }
-}
-
-impl Value for Gravity {
-    const KIND: Kind = Kind::OneOf(&[
-        Kind::Number,
-        Kind::Words(&[Word { word: "earth", help: "That of the earth at the frame rate." }]),
-    ]);
-
-    fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError> {
-        match self {
-            Self::Strength(strength) => strength.check(at, range),
-            Self::Earth => Ok(()),
-        }
-    }
-
-    fn datum(&self) -> Datum {
-        match self {
-            Self::Strength(strength) => strength.datum(),
-            Self::Earth => Datum::Text("earth".to_owned()),
-        }
-    }
-}
-
-impl From<f32> for Gravity {
-    fn from(strength: f32) -> Self {
-        Self::Strength(strength)
     }
 }
 
@@ -143,15 +86,6 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
 }
 
 impl FreeForm {
-    /// Strength of gravity, for a stepper.
-    pub fn weight(&self) -> f32 {
-        match self.gravity {
-            Gravity::Strength(strength) => strength,
-            // Refused before anything is stepped.
-            Gravity::Earth => 0.0,
-        }
-    }
-
     /// alpha: how fast the air slows a node (1 a frame). A swing's amplitude falls half as fast, to 1/e in `settle` frames.
     pub fn air(&self, along: f64) -> f64 {
         let settle = self.settle.at(along);
@@ -232,10 +166,6 @@ impl FreeMotion {
     /// Refuses settings out of range, and bodies that lack a pose in any of the `frames` frames after frame 0.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
-        if self.form.gravity == Gravity::Earth {
-            let remedy = "give its strength: that of the earth depends on all the hair, see earth_gravity";
-            return Err(SettingError::new("free.gravity", "earth", remedy));
-        }
         if !(self.locks.size > 0.0 && self.locks.size.is_finite()) {
             return Err(SettingError::new("free.variation.size", self.locks.size, "must be above 0"));
         }
@@ -269,7 +199,7 @@ mod tests {
         assert_eq!(refused(|f| f.stiffness = Profile::Even(-1.0)), "free.stiffness");
         assert_eq!(refused(|f| f.hold = Profile::RootToTip(vec![1.0, f32::INFINITY])), "free.hold[1]");
         assert_eq!(refused(|f| f.settle = Profile::RootToTip(Vec::new())), "free.settle");
-        assert_eq!(refused(|f| f.gravity = f32::NAN.into()), "free.gravity");
+        assert_eq!(refused(|f| f.gravity = f32::NAN), "free.gravity");
         assert_eq!(refused(|f| f.drag = Profile::Even(-0.5)), "free.drag");
         let refused = |forces: NeighbourForces| forces.check().unwrap_err().thing;
         assert_eq!(refused(NeighbourForces { carriers: 0, ..Default::default() }), "neighbours.carriers");

@@ -1,19 +1,24 @@
 //! A strength along a strand.
 
-use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{Error, IntoDeserializer, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::SettingError;
 use crate::setting::{Datum, Kind, Place, Range, Value, refused};
 
 /// A setting along a strand: one number, or a few from root to tip, evenly spread over the strand's length and joined by
-/// straight lines.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(untagged, expecting = "must be a number, or a list of numbers from root to tip")]
-pub enum Profile {
+/// straight lines. `N`: what is taken for a number.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Profile<N = f32> {
     /// The same from root to tip.
-    Even(f32),
+    Even(N),
     /// The first at the root, the last at the tip.
-    RootToTip(Vec<f32>),
+    RootToTip(Vec<N>),
 }
 
 impl Profile {
@@ -30,22 +35,21 @@ impl Profile {
         a + (b - a) * (place - before as f64)
     }
 
-    /// All its numbers, root first.
-    pub fn values(&self) -> &[f32] {
-        match self {
-            Self::Even(value) => std::slice::from_ref(value),
-            Self::RootToTip(values) => values,
+    /// The mean over the strand.
+    pub fn mean(&self) -> f64 {
+        match self.values() {
+            [one] => f64::from(*one),
+            values => {
+                let between = values.windows(2).map(|pair| 0.5 * (f64::from(pair[0]) + f64::from(pair[1])));
+                between.sum::<f64>() / (values.len() - 1) as f64
+            }
         }
     }
 
     /// All its numbers times `factor`.
     #[must_use]
     pub(crate) fn times(&self, factor: f64) -> Self {
-        let times = |value: f32| (f64::from(value) * factor) as f32;
-        match self {
-            Self::Even(value) => Self::Even(times(*value)),
-            Self::RootToTip(values) => Self::RootToTip(values.iter().copied().map(times).collect()),
-        }
+        self.map(|&value| (f64::from(value) * factor) as f32)
     }
 
     /// The largest of its numbers.
@@ -54,15 +58,70 @@ impl Profile {
     }
 }
 
-impl Value for Profile {
-    const KIND: Kind = Kind::OneOf(&[Kind::Number, Kind::List(&Kind::Number)]);
+impl<N> Profile<N> {
+    /// All its numbers, root first.
+    pub fn values(&self) -> &[N] {
+        match self {
+            Self::Even(value) => std::slice::from_ref(value),
+            Self::RootToTip(values) => values,
+        }
+    }
+
+    /// The same of other numbers.
+    pub fn map<M>(&self, number: impl FnMut(&N) -> M) -> Profile<M> {
+        match self {
+            Self::Even(value) => Profile::Even({ number }(value)),
+            Self::RootToTip(values) => Profile::RootToTip(values.iter().map(number).collect()),
+        }
+    }
+}
+
+impl<'de, N: Deserialize<'de>> Deserialize<'de> for Profile<N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Given(PhantomData))
+    }
+}
+
+/// What a profile is read from.
+struct Given<N>(PhantomData<N>);
+
+impl<'de, N: Deserialize<'de>> Visitor<'de> for Given<N> {
+    type Value = Profile<N>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number, or a list of numbers from root to tip")
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Profile<N>, E> {
+        N::deserialize(number.into_deserializer()).map(Profile::Even)
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Profile<N>, E> {
+        N::deserialize(number.into_deserializer()).map(Profile::Even)
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<Profile<N>, E> {
+        N::deserialize(number.into_deserializer()).map(Profile::Even)
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Profile<N>, E> {
+        N::deserialize(text.into_deserializer()).map(Profile::Even)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, numbers: A) -> Result<Profile<N>, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(numbers)).map(Profile::RootToTip)
+    }
+}
+
+impl<N: Value> Value for Profile<N> {
+    const KIND: Kind = Kind::OneOf(&[N::KIND, Kind::List(&N::KIND)]);
 
     fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError> {
         match self {
             Self::Even(value) => value.check(at, range),
-            Self::RootToTip(values) if (1..=Self::MOST).contains(&values.len()) => values.check(at, range),
+            Self::RootToTip(values) if (1..=Profile::MOST).contains(&values.len()) => values.check(at, range),
             Self::RootToTip(values) => {
-                let remedy = format!("give one number, or 2 to {} from root to tip", Self::MOST);
+                let remedy = format!("give one number, or 2 to {} from root to tip", Profile::MOST);
                 refused(at, format!("a list of {}", values.len()), remedy)
             }
         }
@@ -95,6 +154,9 @@ mod tests {
             assert_eq!(list.at(along), value, "{along}");
         }
         assert_eq!(list.largest(), 8.0);
+        // Of straight lines the mean is that of the middles: (3 + 5) / 2.
+        assert_eq!(list.mean(), 4.0);
+        assert_eq!(Profile::from(3.0).mean(), 3.0);
         assert_eq!(Profile::from(3.0).at(0.7), 3.0);
         assert_eq!(Profile::RootToTip(vec![3.0]).at(0.7), 3.0);
     }

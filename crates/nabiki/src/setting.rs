@@ -92,6 +92,8 @@ pub enum Kind {
     Path,
     /// One of a few words.
     Words(&'static [Word]),
+    /// A number with one of these units as text, `"4.5 cm"`.
+    Quantity(&'static [&'static str]),
     /// So many numbers.
     Numbers(usize),
     /// So many whole numbers of at least 0.

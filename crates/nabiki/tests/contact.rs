@@ -41,7 +41,7 @@ fn free(form: FreeForm, body: Body, frames: u32) -> Dynamics {
 
 /// Neither stiffness nor anything else but what is in the way.
 fn limp() -> FreeForm {
-    FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), settle: 0.0.into(), gravity: 0.0.into(), ..Default::default() }
+    FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), settle: 0.0.into(), gravity: 0.0, ..Default::default() }
 }
 
 fn twins(hair: &Strands, dynamics: &Dynamics, pushes: &nabiki::field::KeyframedField) -> [Box<dyn Stepper>; 2] {
@@ -81,7 +81,7 @@ fn hair_keeps_its_bits_beside_a_longer_strand() {
         let contact = Contact { margin, friction: 0.3, static_friction: 0.4 };
         let body = body(ball(1.5 + 4.0 * random()), at(place), contact);
         let stiffness = Profile::RootToTip(vec![2000.0, 200.0]);
-        let dynamics = free(FreeForm { stiffness, gravity: 0.0.into(), ..Default::default() }, body, FRAMES);
+        let dynamics = free(FreeForm { stiffness, gravity: 0.0, ..Default::default() }, body, FRAMES);
         let poses = turning(0.0001 + 0.002 * random(), FRAMES);
         let alone = run_under(&mut fast(&hair, &dynamics, &gusts), &gusts, &poses);
         let beside = run_under(&mut fast(&with_long, &dynamics, &gusts), &gusts, &poses);
@@ -118,7 +118,7 @@ fn friction_holds_hair_on_a_body_while_the_head_turns() {
                 stiffness: 0.0.into(),
                 hold: 0.0.into(),
                 settle: 2.0.into(),
-                gravity: 0.0.into(),
+                gravity: 0.0,
                 drag: drag.into(),
                 ..Default::default()
             };
@@ -279,7 +279,7 @@ fn hair_in_a_corner_between_two_bodies_is_in_neither() {
     let contact = Contact { margin, friction: 0.2, static_friction: 0.3 };
     let wall = body(board(Vec3::new(8.0, 40.0, 40.0)), at(Vec3::new(-8.0, 0.0, 0.0)), contact);
     let floor = body(board(Vec3::new(40.0, 8.0, 40.0)), at(Vec3::new(0.0, -8.0, 0.0)), contact);
-    let form = FreeForm { stiffness: Profile::RootToTip(vec![300.0, 30.0]), gravity: 0.0.into(), ..Default::default() };
+    let form = FreeForm { stiffness: Profile::RootToTip(vec![300.0, 30.0]), gravity: 0.0, ..Default::default() };
     let mut dynamics = free(form, wall, FRAMES);
     if let Form::Free(free) = &mut dynamics.form {
         free.bodies.push(floor);

@@ -23,13 +23,7 @@ fn calm() -> impl Field {
 }
 
 fn form(stiffness: f32, hold: f32, settle: f32, gravity: f32) -> FreeForm {
-    FreeForm {
-        stiffness: stiffness.into(),
-        hold: hold.into(),
-        settle: settle.into(),
-        gravity: gravity.into(),
-        ..Default::default()
-    }
+    FreeForm { stiffness: stiffness.into(), hold: hold.into(), settle: settle.into(), gravity, ..Default::default() }
 }
 
 /// Strands of one segment of 9 cm, all ways out.

@@ -28,8 +28,7 @@ fn free(motion: FreeMotion) -> Dynamics {
 
 /// Everything at once: a head in the way, other hair, weight, and strengths that differ from root to tip.
 fn everything(carriers: Strands, rest_pose: Pose) -> Dynamics {
-    let form =
-        FreeForm { stiffness: Profile::RootToTip(vec![900.0, 100.0]), gravity: 60.0.into(), ..Default::default() };
+    let form = FreeForm { stiffness: Profile::RootToTip(vec![900.0, 100.0]), gravity: 60.0, ..Default::default() };
     free(FreeMotion {
         form,
         bodies: vec![Body::head(&bust(), Contact::default())],
@@ -70,7 +69,7 @@ fn a_grid_that_would_not_fit_is_refused_with_its_size() {
 
 #[test]
 fn finer_cuts_bend_alike() {
-    let form = FreeForm { stiffness: 600.0.into(), hold: 5.0.into(), gravity: 0.0.into(), ..Default::default() };
+    let form = FreeForm { stiffness: 600.0.into(), hold: 5.0.into(), gravity: 0.0, ..Default::default() };
     let dynamics = free(FreeMotion { form, ..Default::default() });
     let blows = field(&[(1000, [-60.0, 0.0, 20.0])]);
     let tips = |segments: usize| -> Vec<glam::DVec3> {
@@ -155,7 +154,7 @@ fn hair_stays_out_of_the_head_without_kinks_and_comes_back_to_rest() {
         stiffness: Profile::RootToTip(vec![12_000.0, 1000.0]),
         hold: 30.0.into(),
         settle: 20.0.into(),
-        gravity: 100.0.into(),
+        gravity: 100.0,
         ..Default::default()
     };
     let mut dynamics = free(FreeMotion { form, bodies: vec![body.clone()], ..Default::default() });
@@ -234,7 +233,7 @@ fn under_an_even_force_a_strand_bends_as_an_elastica_under_its_own_weight() {
                 stiffness: stiffness.into(),
                 hold: 0.0.into(),
                 settle: 100.0.into(),
-                gravity: 0.0.into(),
+                gravity: 0.0,
                 ..Default::default()
             };
             let dynamics = free(FreeMotion { form, ..Default::default() });
@@ -280,7 +279,7 @@ fn any_cohesion_calms_hair() {
     let strands = hair(24, 18);
     let push = field(&[(3, [0.0, 0.0, 100.0]), (400, [0.0; 3])]);
     for cohesion in [10.0, 1e3, 1e5, 1e7] {
-        let form = FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), gravity: 0.0.into(), ..Default::default() };
+        let form = FreeForm { stiffness: 0.0.into(), hold: 0.0.into(), gravity: 0.0, ..Default::default() };
         let mut dynamics = common::with_neighbours(free(FreeMotion { form, ..Default::default() }));
         if let Form::Free(free) = &mut dynamics.form {
             let neighbours = free.neighbours.as_mut().unwrap();
@@ -303,7 +302,7 @@ fn any_cohesion_calms_hair() {
 fn gravity_is_refused_from_the_bound_on() {
     let strands = straight(3);
     let with = |gravity: f64| {
-        let form = FreeForm { gravity: (gravity as f32).into(), ..Default::default() };
+        let form = FreeForm { gravity: gravity as f32, ..Default::default() };
         free(FreeMotion { form, ..Default::default() })
     };
     // Two steps a frame.
@@ -353,7 +352,7 @@ fn a_small_push_of_curved_hair_dies_out_where_it_settles_and_is_held() {
             stiffness: stiffness.into(),
             hold: 30.0.into(),
             settle: 20.0.into(),
-            gravity: 0.0.into(),
+            gravity: 0.0,
             ..Default::default()
         };
         let dynamics = free(FreeMotion { form, ..Default::default() });

@@ -76,7 +76,7 @@ fn hair_is_left_behind_by_its_part_of_the_head_s_turn() {
         let form = FreeForm {
             stiffness: 0.0.into(),
             hold: 0.0.into(),
-            gravity: 0.0.into(),
+            gravity: 0.0,
             drag: drag.clone(),
             ..Default::default()
         };
@@ -106,13 +106,8 @@ fn still_air_is_a_wind_against_a_head_that_goes_evenly() {
         .collect();
     for drag in [1.0_f32, 0.4] {
         // So firm that no strand buckles that points into the wind: roundings would decide to which side.
-        let form = FreeForm {
-            hold: 400.0.into(),
-            settle: 9.0.into(),
-            drag: drag.into(),
-            gravity: 0.0.into(),
-            ..Default::default()
-        };
+        let form =
+            FreeForm { hold: 400.0.into(), settle: 9.0.into(), drag: drag.into(), gravity: 0.0, ..Default::default() };
         let dynamics = free(form, Pose::STILL);
         // Before frame 0 the head went on as it does then.
         let wind = -2.0 / 9.0 * velocity * f64::from(drag) / push(&dynamics, 18.0);
@@ -149,7 +144,7 @@ fn a_push_from_rest_moves_a_node_by_its_acceleration() {
         settle: settle.clone(),
         stiffness: 0.0.into(),
         hold: 0.0.into(),
-        gravity: 0.0.into(),
+        gravity: 0.0,
         ..Default::default()
     };
     let (dynamics, blows) = (free(form, Pose::STILL), field(&[(9, force.as_vec3().to_array())]));
@@ -179,13 +174,8 @@ fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
     let mut strands = Strands::default();
     strands.push((0..=6).map(|i| Vec3::new(10.6, 0.0, -4.5 + 1.5 * i as f32)));
     let coefficients = vec![0.05, 0.2, 0.3, 0.5, 0.7, 1.0];
-    let form = FreeForm {
-        pseudo_force: true,
-        stiffness: 0.0.into(),
-        hold: 0.0.into(),
-        gravity: 0.0.into(),
-        ..FreeForm::default()
-    };
+    let form =
+        FreeForm { pseudo_force: true, stiffness: 0.0.into(), hold: 0.0.into(), gravity: 0.0, ..FreeForm::default() };
     let mut dynamics = free(form, Pose::STILL);
     dynamics.pseudo_force = PseudoForce { alpha: 1.0, coefficients: coefficients.clone() };
     let blows = field(&[(9, [0.0, 0.02, 0.0])]);
@@ -211,7 +201,7 @@ fn settled_hair_is_in_balance() {
         stiffness: stiffness.clone(),
         hold: hold.clone(),
         settle: 20.0.into(),
-        gravity: (gravity as f32).into(),
+        gravity: gravity as f32,
         ..Default::default()
     };
     let (dynamics, blows) = (free(form, Pose::STILL), field(&[(9, force.as_vec3().to_array())]));

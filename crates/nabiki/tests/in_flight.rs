@@ -19,8 +19,8 @@ fn run(simulation: &mut Simulation, frames: std::ops::RangeInclusive<u32>) -> Ve
 #[test]
 fn hair_goes_on_under_other_settings_from_where_it_is() {
     let hair = hair(60, 18);
-    let light = with_neighbours(free(FreeForm { gravity: 100.0.into(), ..FreeForm::default() }));
-    let heavy = with_neighbours(free(FreeForm { gravity: 120.0.into(), ..FreeForm::default() }));
+    let light = with_neighbours(free(FreeForm { gravity: 100.0, ..FreeForm::default() }));
+    let heavy = with_neighbours(free(FreeForm { gravity: 120.0, ..FreeForm::default() }));
     let mut old = fast(&hair, &light, &wind());
     run(&mut old, 1..=15);
     // Built of its own with the same settings: to the bit.

@@ -177,7 +177,7 @@ fn hair_stepped_twice_as_often_moves_alike() {
         // Held so firmly that nothing buckles, and so limp that no ripple is faster than a step can follow.
         let mut free = FreeMotion::default();
         free.form.settle = Profile::Even(rate as f32 / 3.0);
-        (free.form.stiffness, free.form.hold, free.form.gravity) = (0.0.into(), 100.0.into(), 0.0.into());
+        (free.form.stiffness, free.form.hold, free.form.gravity) = (0.0.into(), 100.0.into(), 0.0);
         let motion = Motion { frame_rate: f64::from(rate), time_step, ..Motion::default() };
         let dynamics = Dynamics { motion, pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() };
         let poses: Vec<Pose> = (0..=rate).map(|n| pose(n as f32 / rate as f32)).collect();

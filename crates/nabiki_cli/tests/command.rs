@@ -453,7 +453,7 @@ fn the_schema_is_printed_for_people_and_as_json_schema() {
         (&cell["minimum"], &cell["maximum"], &cell["default"], &cell["x-unit"]),
         (&0.5.into(), &20.0.into(), &2.0.into(), &"cm".into())
     );
-    assert_eq!(json["$defs"]["Keyframe"]["required"], serde_json::json!(["through", "vector"]));
+    assert_eq!(json["$defs"]["ForceSettings"]["required"], serde_json::json!(["through", "vector"]));
     // Every definition that is named is there.
     let text = json.to_string();
     for name in text.split("#/$defs/").skip(1).filter_map(|rest| rest.split('"').next()) {

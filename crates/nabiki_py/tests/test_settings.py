@@ -12,10 +12,11 @@ import nabiki
 from nabiki.settings._table import Table, Tables
 
 WIND = "[[force]]\nthrough = 5\nvector = [1, 2, 3]\n"
+SPEED = 'speed = "5 m/s"\n'
 MOTION = '{ file = "m.bvh", skeleton = "s.asf", unit_cm = 1.0, up = "+y", facing = "+z", frames_per_second = 30.0 }'
 LIE = 'unit = "m"\nup = "+y"\nfacing = "+x"\norigin = [0, 0, 0]\n'
 # Between them they have every table that a scene can have.
-MOST = f"""{WIND}
+MOST = f"""{WIND}{SPEED}
 [head]
 motion = {MOTION}
 [gust]
@@ -134,6 +135,7 @@ def test_every_attribute_put_back_as_it_is_leaves_the_scene_as_it_was():
         (lambda scene: setattr(scene.motion, "frames", 7), "[motion]\nframes = 7\n"),
         (lambda scene: setattr(scene.free, "stiffness", [2000, 200]), "[free]\nstiffness = [2000, 200]\n"),
         (lambda scene: setattr(scene.free, "gravity", "earth"), '[free]\ngravity = "earth"\n'),
+        (lambda scene: setattr(scene.free, "stiffness", ["9 cm", 500]), '[free]\nstiffness = ["9 cm", 500]\n'),
         (lambda scene: setattr(scene.hair.style.curl, "radius", 0.5), "[hair.style.curl]\nradius = 0.5\n"),
         (lambda scene: setattr(scene.gust, "intensity", 0.25), "[gust]\nintensity = 0.25\n"),
         (lambda scene: setattr(scene.picture.hair, "colour", {"rgb": (0.3, 0.1, 0.05)}), "[picture.hair]\ncolour = { rgb = [0.3, 0.1, 0.05] }\n"),
@@ -340,6 +342,15 @@ def test_an_interval_of_another_shape_is_named(gust, force):
     with pytest.raises(nabiki.Error) as refused:
         gust.forces = [(2, (1, 0, 0)), force]
     assert refused.value.thing == "forces[1]" and "(last frame, (x, y, z))" in str(refused.value)
+
+
+def test_intervals_keep_their_speeds(gust):
+    gust.forces = [(5, (-1, 0, 0), "20 km/h"), (9, (0, 2, 0))]
+    gust.forces.append((12, (0, 0, 3)))
+    assert gust.forces == [(5, (-1, 0, 0), "20 km/h"), (9, (0, 2, 0)), (12, (0, 0, 3))]
+    assert gust.force[0].speed == "20 km/h" and gust.force[1].speed is None
+    with pytest.raises(nabiki.Error, match=r"force\[0\]\.speed: found \"20 knots\""):
+        gust.force[0].speed = "20 knots"
 
 
 def test_entries_that_are_turned_round_or_taken_out_stay_what_they_are(gust):

@@ -226,7 +226,7 @@ fn pulled(built: &BuiltScene, lock: &Lock, from: Vec3, way: Vec3, wait_s: f64) -
             let cm = pulled.left_cm;
             ended = pulled.ended;
             left[2] = cm;
-            by = change(&field.force, &pulled.answer.keyframes, field.wind.ease, 1..=lock.frame);
+            by = change(built.forces.intervals(), &pulled.answer.keyframes, field.wind.ease, 1..=lock.frame);
             for (left, passed) in left.iter_mut().zip([wall, busy]) {
                 if passed <= SOON_S {
                     *left = cm;

@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation, Timeline};
+use nabiki::field::Keyframe;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
 use nabiki_io::cache::{Origin, Shard};
 use nabiki_render::DrawnBody;
@@ -24,7 +25,7 @@ use nabiki_render::DrawnBody;
 use crate::advice::Advice;
 use crate::error::{Error, Result};
 use crate::memory;
-use crate::scene::{FieldBound, Scene};
+use crate::scene::{FieldBound, ForceSettings, Scene};
 use crate::seat::{self, LikelyRoots, Seat};
 
 pub use forces::Forces;
@@ -56,6 +57,8 @@ pub struct BuiltScene {
     pub dynamics: Dynamics,
     /// The scene's bodies, in their order; none in the paper's form.
     pub(crate) bodies: Vec<Arc<BuiltBody>>,
+    /// How strong a wind of 1 cm/s is, in the free form.
+    of_speed: f64,
 }
 
 impl Scene {
@@ -91,7 +94,8 @@ impl Scene {
         build::build(self, shown, Some(shard), &[], &|_| true)
     }
 
-    /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it.
+    /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it, and hair where
+    /// the wind has a speed.
     ///
     /// # Errors
     /// As [`build`](Self::build).
@@ -201,6 +205,11 @@ impl BuiltScene {
     /// The poses that a timeline is given: those of all frames, or none for a head that stands still.
     pub fn given_poses(&self) -> Vec<Pose> {
         if self.head_moves() { self.way.poses[..=self.frames() as usize].to_vec() } else { Vec::new() }
+    }
+
+    /// Intervals of `[[force]]` by their strength, as they would blow here.
+    pub fn strengths_of(&self, force: &[ForceSettings]) -> Vec<Keyframe> {
+        force.iter().map(|force| force.keyframe(self.of_speed)).collect()
     }
 
     /// The strands at rest: all of the scene's, or those asked for.

@@ -51,7 +51,8 @@ pub(crate) fn arrows(built: &BuiltScene, frame: u32, view: &View) -> Vec<ForceAr
 /// The field over time, and around the head where it differs from place to place.
 pub(crate) fn plot(built: &BuiltScene) -> FieldPlot {
     let field = &built.scene.field;
-    let intervals = field.force.iter().map(|k| Interval { through: k.through, vector: k.vector }).collect();
+    let intervals =
+        built.forces.intervals().iter().map(|k| Interval { through: k.through, vector: k.vector }).collect();
     let straight = field.wind.ease == Ease::Stepped && field.gust.is_none() && field.body_wind.is_none();
     let path = if straight {
         Vec::new()

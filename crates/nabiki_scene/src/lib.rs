@@ -15,7 +15,7 @@
 //! #     std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).expect("the project's folder");
 //!     let mut scene = Scene::load("scenes/gust.toml".as_ref(), &[])?;
 //!     let down = Keyframe { through: 100, vector: Vec3::new(-15.0, -300.0, 0.0) };
-//!     scene.field.force = vec![down];
+//!     scene.field.force = vec![down.into()];
 //!     let built = scene.build(Shown::First(300))?;
 //!     let mut timeline = built.timeline()?;
 //!     let film = timeline.play();

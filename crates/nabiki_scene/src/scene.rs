@@ -10,10 +10,13 @@ mod edit;
 mod error;
 mod field;
 mod flat;
+mod force;
 mod form;
+mod free;
 mod hair;
 mod head;
 mod output;
+mod quantity;
 pub(crate) mod read;
 mod settings;
 pub(crate) mod tree;
@@ -25,8 +28,8 @@ use nabiki::SettingError;
 use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::Motion;
-use nabiki::field::{BodyWind, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind};
-use nabiki::free_form::{FreeForm, NeighbourForces};
+use nabiki::field::{BodyWind, Fan, Flow, Gust, Point, Turbulence, Vortex, Wind};
+use nabiki::free_form::NeighbourForces;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::setting::Key;
 use nabiki_file::PartFile;
@@ -42,13 +45,18 @@ pub use body::BodySettings;
 pub use error::{Problem, SceneError};
 pub use field::{FieldBound, FieldSettings, OwnField};
 pub(crate) use field::{FieldParts, FieldPlace};
+pub use force::ForceSettings;
+pub(crate) use force::given_as;
 pub use form::FormChoice;
 pub(crate) use form::FormKey;
+pub use free::FreeSettings;
+pub(crate) use free::MeanLengths;
 pub(crate) use hair::AnyHair;
 pub use hair::{GrownHair, HairSettings, HairSource, ImportedHair, RootEnd};
 pub(crate) use head::{AnyHead, BuiltinHead};
 pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
 pub use output::{Output, check_first_frame};
+pub use quantity::{Amount, Length, Measure, Quantity, Speed, Strength, Time, Weight};
 
 use read::{Node, Refusal};
 use tree::{Unwritable, table_of};
@@ -62,7 +70,7 @@ use tree::{Unwritable, table_of};
 ///
 /// let text = "[[force]]          # the gust\nthrough = 50\nvector = [-100, 0, 0]\n";
 /// let mut scene = Scene::parse(text, "gust.toml".as_ref(), &[])?;
-/// scene.field.force = vec![Keyframe { through: 50, vector: Vec3::new(-80.0, 0.0, 0.0) }];
+/// scene.field.force = vec![Keyframe { through: 50, vector: Vec3::new(-80.0, 0.0, 0.0) }.into()];
 /// assert_eq!(scene.to_toml()?, text.replace("-100", "-80"));
 /// # Ok::<(), nabiki_scene::scene::SceneError>(())
 /// ```
@@ -77,7 +85,7 @@ pub struct Scene {
     /// `motion.form`: the equations that hair moves by.
     pub form: FormChoice,
     /// `[free]`: what holds hair in shape and calms it, in the free form.
-    pub free: FreeForm,
+    pub free: FreeSettings,
     /// `[contact]`: how hair and head touch, in the free form.
     pub contact: Contact,
     /// `[[body]]`: what else hair does not enter, in the free form.
@@ -127,12 +135,12 @@ struct Tables {
     head: Table,
     hair: Table,
     motion: Table,
-    free: FreeForm,
+    free: FreeSettings,
     contact: Contact,
     body: Vec<BodySettings>,
     neighbours: Option<NeighbourForces>,
     pseudo_force: PseudoForce,
-    force: Vec<Keyframe>,
+    force: Vec<ForceSettings>,
     wind: Wind,
     gust: Option<Gust>,
     body_wind: Option<BodyWind>,
@@ -242,12 +250,29 @@ impl Scene {
         self.neighbours.as_ref().map_or(Ok(()), NeighbourForces::check)?;
         self.pseudo_force.check()?;
         self.field.check(self.head.motion.is_some(), self.form == FormChoice::Free)?;
+        self.check_speeds()?;
         if let Some(disturbance) = &self.disturbance {
             disturbance.check()?;
         }
         self.picture.check()?;
         self.output.check()?;
         self.output.check_frames(self.motion.frames)
+    }
+
+    /// Refuses a wind given by its speed where nothing is carried by the air.
+    fn check_speeds(&self) -> Result<(), SettingError> {
+        let mut speeds = self.field.force.iter().enumerate().filter_map(|(j, force)| Some((j, force.speed?)));
+        let Some((j, speed)) = speeds.next() else { return Ok(()) };
+        let refused = |remedy: &str| Err(SettingError::new(format!("force[{j}].speed"), speed, remedy));
+        if self.form == FormChoice::Paper {
+            return refused(
+                "hair of the paper's form is carried by no air: set motion.form = \"free\", or give vector the strength",
+            );
+        }
+        if self.free.settle.values().iter().all(Amount::is_zero) {
+            return refused("without air, free.settle = 0, no wind carries hair: give settle, or vector the strength");
+        }
+        Ok(())
     }
 
     /// What overrides took out of the file without saying so: a line each.

@@ -1,21 +1,22 @@
 //! The schema of scenes: every table and setting that a scene file may hold, as the structs declare them, as data.
 //!
 //! [`TABLES`] are the tables with their settings, [`json`] is the same as a JSON Schema (draft 2020-12), by which editors complete and
-//! check scene files. Beyond its own words it has `x-unit`, the unit of a number, and `x-open`, what is taken where a setting is left out.
+//! check scene files. Beyond its own words it has `x-unit`, the unit of a number, `x-units`, those of a text that is a number with its unit, and `x-open`, what is taken where a setting is left out.
 
 use std::fmt::Write;
 
 use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::Motion;
-use nabiki::field::{BodyWind, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind};
-use nabiki::free_form::{FreeForm, NeighbourForces};
+use nabiki::field::{BodyWind, Fan, Flow, Gust, Point, Turbulence, Vortex, Wind};
+use nabiki::free_form::NeighbourForces;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::setting::{Datum, Key, Kind, Range, Setting, Settings, Step, Table, plain};
 use nabiki_render::Picture;
 
 use crate::scene::{
-    AnyHair, AnyHead, BodySettings, BuiltinHead, FormKey, GrownHair, ImportedHair, ImportedHead, Output,
+    AnyHair, AnyHead, BodySettings, BuiltinHead, ForceSettings, FormKey, FreeSettings, GrownHair, ImportedHair,
+    ImportedHead, Output,
 };
 
 /// A table at the top of a scene file.
@@ -72,12 +73,12 @@ pub const TABLES: &[SceneTable] = &[
         "The hair at rest: grown from the scalp, or, where `file` is given, read from a file.",
     ),
     SceneTable::of("motion", Always, &[Motion::TABLE]).sharing(FormKey::TABLE, Motion::TABLE.help),
-    SceneTable::of("free", Always, &[FreeForm::TABLE]),
+    SceneTable::of("free", Always, &[FreeSettings::TABLE]),
     SceneTable::of("contact", Always, &[Contact::TABLE]),
     SceneTable::of("body", ManyTimes, &[BodySettings::TABLE]),
     SceneTable::of("neighbours", IfGiven, &[NeighbourForces::TABLE]),
     SceneTable::of("pseudo_force", Always, &[PseudoForce::TABLE]),
-    SceneTable::of("force", ManyTimes, &[Keyframe::TABLE]),
+    SceneTable::of("force", ManyTimes, &[ForceSettings::TABLE]),
     SceneTable::of("wind", Always, &[Wind::TABLE]),
     SceneTable::of("gust", IfGiven, &[Gust::TABLE]),
     SceneTable::of("body_wind", IfGiven, &[BodyWind::TABLE]),
@@ -285,6 +286,11 @@ fn kind(kind: &Kind, range: &Range) -> Vec<(&'static str, Datum)> {
                 entries.push(("enumDescriptions", Datum::List(help)));
             }
             entries
+        }
+        Kind::Quantity(units) => {
+            let pattern = format!(r"^\d*\.?\d+(e[+-]?\d+)? ?({})$", units.join("|"));
+            let units = units.iter().map(|unit| word(unit)).collect();
+            vec![("type", word("string")), ("pattern", Datum::Text(pattern)), ("x-units", Datum::List(units))]
         }
         Kind::Numbers(count) => several(Kind::Number, count),
         Kind::Wholes(count) => several(Kind::Whole { least: 0, most: i64::from(u32::MAX) }, count),

@@ -7,12 +7,12 @@ mod wishes;
 use std::sync::Arc;
 
 use nabiki::SettingError;
-use nabiki::dynamics::ForceSpace;
+use nabiki::dynamics::{ForceSpace, Form};
 use nabiki::field::{Field, FlowField};
 use nabiki::solve::{Answer, KeyedWind, Prior, Problem, Surroundings, Unknown, Wish};
 
 use crate::built::BuiltScene;
-use crate::scene::{FieldPlace, FieldSettings, FormChoice, Scene};
+use crate::scene::{FieldPlace, FieldSettings, ForceSettings, Scene, given_as};
 
 pub use find::Named;
 pub use solved::{MET_CM, Solved};
@@ -32,7 +32,11 @@ impl BuiltScene {
             hair: self.strands().clone(),
             ids: self.groom.ids.clone(),
             dynamics: self.dynamics.clone(),
-            wind: KeyedWind { keyframes: field.force.clone(), ease: field.wind.ease, gust: field.gust.clone() },
+            wind: KeyedWind {
+                keyframes: self.forces.intervals().to_vec(),
+                ease: field.wind.ease,
+                gust: field.gust.clone(),
+            },
             surroundings: Arc::new(SceneSurroundings { field: field.clone(), place }),
             poses,
             unknowns,
@@ -43,14 +47,21 @@ impl BuiltScene {
 }
 
 impl Scene {
-    /// Takes over what a solver found for it.
-    pub fn accept(&mut self, answer: &Answer) {
-        let Answer { keyframes, gust, stiffness, settle } = answer.clone();
-        self.field.force = keyframes;
-        self.field.gust = gust;
-        if self.form == FormChoice::Free {
-            self.free.stiffness = stiffness.unwrap_or(self.free.stiffness.clone());
-            self.free.settle = settle.unwrap_or(self.free.settle.clone());
+    /// Takes over what a solver found about it as it was `built`. What is as strong as there stays as it is given there: by a speed, or
+    /// in a unit of the world.
+    pub fn accept(&mut self, answer: &Answer, built: &BuiltScene) {
+        let Answer { keyframes, gust, stiffness, settle } = answer;
+        let (given, was) = (&built.scene.field.force, built.forces.intervals());
+        self.field.force = given_as(given, was, keyframes);
+        self.field.gust.clone_from(gust);
+        if let (Form::Free(free), Some(stiffness), Some(settle)) = (&built.dynamics.form, stiffness, settle) {
+            self.free.stiffness = built.scene.free.stiffness.clone();
+            self.free.settle = built.scene.free.settle.clone();
+            self.free.accept(&free.form, stiffness, settle);
+            if *settle != free.form.settle {
+                // As fast a wind would be of another strength.
+                self.field.force = keyframes.iter().copied().map(ForceSettings::from).collect();
+            }
         }
     }
 }
@@ -64,7 +75,7 @@ struct SceneSurroundings {
 
 impl Surroundings for SceneSurroundings {
     fn field(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError> {
-        Ok(self.field.build_about(&self.place, Some(wind))?.field)
+        Ok(self.field.build_about(&self.place, wind)?.field)
     }
 
     fn of_wind(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError> {

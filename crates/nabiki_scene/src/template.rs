@@ -82,13 +82,26 @@ fn lines(table: &str, keys: &[&str]) -> String {
     keys.iter().filter_map(line).collect()
 }
 
+/// Hair as it is in life, in true timing at any frame rate: real hair that is styled a little at its root. Its steps are as many as keep
+/// single strands from whirling at 24, 25 and 30 frames a second.
+const FREE: &str = "\
+stiffness = [\"6 cm\", \"4.5 cm\"]   # within how far hair bends under its own weight, at the root and at the tip; real hair has 4.5 cm
+hold = \"0.3 g\"              # hair spray: brings hair back to its place, by a part of its weight
+settle = \"0.6 s\"            # how long until a swing has fallen to a third
+gravity = \"1 g\"             # as on the earth
+drag = 1.0                  # how far a head that moves leaves hair behind: 1 is as in life
+substeps = 4                # steps that a frame is divided into
+";
+
 /// Motion, wind and camera of a new scene.
 fn rest(Shot { frames, rate }: Shot) -> String {
-    let free = lines("free", &["stiffness", "hold", "settle", "gravity", "drag"]);
     let contact = lines("contact", &["margin", "friction", "static_friction"]);
     let neighbours: String =
         lines("neighbours", &["pressure", "cohesion"]).lines().map(|line| format!("# {line}\n")).collect();
-    let half = frames / 2;
+    // Intervals have a frame at least.
+    let calm = (frames / 16).max(1);
+    let half = (frames * 7 / 16).max(calm + 1);
+    let last = frames.max(half + 1);
     format!(
         "
 [motion]
@@ -97,24 +110,32 @@ frames = {frames}
 frame_rate = {rate}
 inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside it (cm)
 
-# What holds hair in shape and calms it, in the unit of the forces below: where the stiffness is 36 times the wind, hair
-# bends within 6 times hair.segment_length. All but the weight are numbers, or lists from root to tip.
+# What holds hair in shape and calms it. All but the weight may be lists from root to tip; plain numbers are in the unit of the force.
 [free]
-{free}
+{FREE}
 # Hair stays out of the head, and of every [[body]] with a mesh and a motion, or one that goes with_head.
 [contact]
 {contact}
 # Hair against hair, felt where the table is there:
 # [neighbours]
 {neighbours}
-# Where the hair shall go: a direction with a strength, up to a frame.
+# Where the hair shall go: a direction with the speed of the wind, up to a frame. Without a speed the vector's length is its strength.
 [[force]]
-through = {half}
-vector = [-100, 0, 0]      # backward
+through = {calm}
+vector = [0, 0, 0]
 
 [[force]]
-through = {frames}
-vector = [-10, 0, 0]       # a breeze, in which hair comes back by itself
+through = {half}
+vector = [-1, 0.1, 0]      # backward
+speed = \"25 km/h\"
+
+[[force]]
+through = {last}
+vector = [-1, 0, 0]
+speed = \"2 km/h\"           # a breeze, in which hair comes back by itself
+
+[wind]
+ease = \"smooth\"            # how the wind goes from one to the next
 
 # The camera frames all that moves; distance (cm) and target fix it.
 [picture]

@@ -351,10 +351,10 @@ impl SwingTable {
             };
             SwingRow { frames, force, swing }
         };
-        let weight = form.map_or(0.0, FreeForm::weight);
+        let weight = form.map_or(0.0, |form| form.gravity);
         let mut first = 1;
         let (field, last) = (&built.scene.field, built.frames());
-        let reached = field.force.iter().scan(0, |before, key| {
+        let reached = built.forces.intervals().iter().scan(0, |before, key| {
             let begins = *before < last;
             *before = key.through;
             begins.then_some(key)
@@ -420,7 +420,7 @@ mod tests {
             (even(300.0), Profile::RootToTip(vec![120.0, 0.0]), 0.0),
             (taper, even(30.0), 100.0),
         ] {
-            let form = FreeForm { stiffness, hold, gravity: gravity.into(), settle: even(0.0), ..FreeForm::default() };
+            let form = FreeForm { stiffness, hold, gravity, settle: even(0.0), ..FreeForm::default() };
             let mut dynamics = Dynamics::new(Ellipsoid { center: Vec3::Y * 100.0, half_axes: Vec3::ONE });
             let told = strand_swing(&dynamics, &form, LENGTH_CM.into(), gravity.into());
             dynamics.form = Form::Free(FreeMotion { form: form.clone(), ..FreeMotion::default() });

@@ -11,7 +11,7 @@ use nabiki_io::Unit;
 use nabiki_io::motion::{Axis, MotionSource};
 use nabiki_render::settings::{CameraKey, HairColour};
 use nabiki_scene::Scene;
-use nabiki_scene::scene::{GrownHair, HairSource, HeadSource, ImportedHair, ImportedHead, Problem};
+use nabiki_scene::scene::{ForceSettings, GrownHair, HairSource, HeadSource, ImportedHair, ImportedHead, Problem};
 
 use common::{changed_lines, lines, reread};
 
@@ -23,11 +23,11 @@ fn shipped() -> Vec<PathBuf> {
     scenes
 }
 
-fn keyframe(through: u32, vector: [f32; 3]) -> Keyframe {
-    Keyframe { through, vector: Vec3::from(vector) }
+fn keyframe(through: u32, vector: [f32; 3]) -> ForceSettings {
+    Keyframe { through, vector: Vec3::from(vector) }.into()
 }
 
-fn keyframes(scene: &mut Scene) -> &mut Vec<Keyframe> {
+fn keyframes(scene: &mut Scene) -> &mut Vec<ForceSettings> {
     &mut scene.field.force
 }
 

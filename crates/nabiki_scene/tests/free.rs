@@ -7,8 +7,7 @@ use std::path::Path;
 use glam::Vec3;
 use nabiki::Profile;
 use nabiki::dynamics::{Form, earth_gravity};
-use nabiki::free_form::Gravity;
-use nabiki_scene::scene::FormChoice;
+use nabiki_scene::scene::{Amount, FormChoice};
 use nabiki_scene::{Scene, Shown};
 
 use common::{changed_lines, lines, reread};
@@ -74,12 +73,16 @@ fn the_tables_of_the_free_form_are_changed_line_by_line() {
     let one =
         |edit: &dyn Fn(&mut Scene), old: &str, new: &str| assert_eq!(change(edit), (lines(&[old]), lines(&[new])));
     one(
-        &|scene| scene.free.stiffness = Profile::RootToTip(vec![120.0, 80.0, 10.0]),
+        &|scene| scene.free.stiffness = Profile::RootToTip([120.0, 80.0, 10.0].map(Amount::Number).to_vec()),
         "stiffness = [120, 60.5, 10]",
         "stiffness = [120, 80.0, 10]",
     );
-    one(&|scene| scene.free.stiffness = Profile::Even(90.0), "stiffness = [120, 60.5, 10]", "stiffness = 90.0");
-    one(&|scene| scene.free.gravity = Gravity::Strength(12.5), "gravity = \"earth\"", "gravity = 12.5");
+    one(
+        &|scene| scene.free.stiffness = Profile::Even(Amount::Number(90.0)),
+        "stiffness = [120, 60.5, 10]",
+        "stiffness = 90.0",
+    );
+    one(&|scene| scene.free.gravity = Amount::Number(12.5), "gravity = \"earth\"", "gravity = 12.5");
     one(&|scene| scene.contact.margin = 0.3, "margin = 0.2     # cm", "margin = 0.3     # cm");
     one(
         &|scene| scene.form = FormChoice::Paper,
@@ -168,11 +171,11 @@ fn strengths_that_are_none_are_refused_where_they_stand() {
     assert_eq!(refused("gravity = 50", "gravity = nan"), format!("free.toml:8: free.gravity = NaN: {range}"));
     assert_eq!(
         refused("gravity = 50", "hold = \"hairspray\""),
-        "free.toml:8: free.hold: found \"hairspray\", must be a number, or a list of numbers from root to tip"
+        "free.toml:8: free.hold: found \"hairspray\", must be a number, or a part of the earth's gravity, \"0.3 g\""
     );
     assert_eq!(
         refused("gravity = 50", "gravity = \"moon\""),
-        "free.toml:8: free.gravity: found \"moon\", must be a number of at least 0, or \"earth\""
+        "free.toml:8: free.gravity: found \"moon\", must be a number, or a part of the earth's, \"1 g\", or \"earth\""
     );
     assert_eq!(refused("margin = 0.1", "margin = -1"), "free.toml:10: contact.margin = -1: must lie in 0..5");
     assert_eq!(refused("margin = 0.1", "friction = nan"), "free.toml:10: contact.friction = NaN: must lie in 0..10");
@@ -396,6 +399,6 @@ fn up_is_that_of_the_head_s_first_pose_and_gravity_that_of_the_earth_on_hair_of_
     let mean = strands.lengths().map(f64::from).sum::<f64>() / strands.len() as f64;
     let wanted = earth_gravity(&built.dynamics, mean);
     // It is told by the first 256 of 300 strands, whose lengths differ by a few parts in a hundred.
-    assert!((free.form.weight() / wanted - 1.0).abs() < 0.02, "{}, not {wanted}", free.form.weight());
+    assert!((free.form.gravity / wanted - 1.0).abs() < 0.02, "{}, not {wanted}", free.form.gravity);
     assert_eq!(free.rest_pose, built.pose(0));
 }

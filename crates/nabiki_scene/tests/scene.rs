@@ -87,7 +87,7 @@ fn an_entry_of_a_list_that_the_file_does_not_give_is_that_of_the_default() {
     lights[1].strength = 9.0;
     assert_eq!(scene.picture.lights, lights);
     let mut stiffness = default.free.stiffness.values().to_vec();
-    stiffness[0] = 300.0;
+    stiffness[0] = 300.0.into();
     assert_eq!(scene.free.stiffness.values(), stiffness);
     assert_eq!(parse(GUST, &[("pseudo_force.coefficients.0", "0.01")]).unwrap().pseudo_force, default.pseudo_force);
     let beyond = parse(GUST, &[("picture.lights.9.strength", "1")]).unwrap_err().to_string();

@@ -47,6 +47,10 @@ fn value(kind: &Kind, range: &Range, dice: &mut impl Iterator<Item = [f64; 3]>) 
         Kind::Text => Value::String(["", "Head", "a \"b\" #c\\", "\u{e4}\n"][(4.0 * throw[0]) as usize].to_owned()),
         Kind::Path => Value::String(["a.obj", "../b c/d.abc"][(2.0 * throw[0]) as usize].to_owned()),
         Kind::Words(words) => Value::String(words[(words.len() as f64 * throw[0]) as usize].word.to_owned()),
+        Kind::Quantity(units) => {
+            let unit = units[(units.len() as f64 * throw[0]) as usize];
+            Value::String(format!("{} {unit}", (20.0 * throw[1]) as f32))
+        }
         Kind::Numbers(count) => Value::Array((0..count).map(|_| value(&Kind::Number, range, dice)).collect()),
         Kind::Wholes(count) => {
             Value::Array((0..count).map(|_| value(&Kind::Whole { least: 0, most: 9 }, range, dice)).collect())

@@ -196,7 +196,7 @@ strands = [0, 1]
     let force = &scene.field.force;
     assert_eq!((force.len(), force[0].through, force[2].through), (3, 30, 60));
     assert_eq!(force[0].vector, Vec3::new(-60.0, 0.5, 0.0));
-    assert_eq!(*force, solved.report.answer.keyframes);
+    assert_eq!(scene.field.as_given(), solved.report.answer.keyframes);
     let text = std::fs::read_to_string(place.path("solved.toml")).unwrap();
     for comment in
         ["# A little hair.", "# not many", "+60", "# first it blows", "# from the front", "# then it does not"]
@@ -260,7 +260,7 @@ carriers = 30
     assert!(solved.report.after_cm < 0.1, "{solved}");
     // Before: the problem moves as the scene does.
     let built = Scene::load(&place.path("solved.toml"), &[]).unwrap().build(Shown::All).unwrap();
-    assert_eq!(built.scene.field.force, solved.report.answer.keyframes);
+    assert_eq!(built.scene.field.as_given(), solved.report.answer.keyframes);
     let problem = built.problem(vec![Unknown::Vector(0)], Vec::new());
     let wind = problem.wind.field(built.scene.frame_rate()).unwrap();
     let field = problem.surroundings.field(wind).unwrap();
@@ -420,7 +420,7 @@ fn the_wishes_that_come_with_the_scenes_are_about_their_hair() {
         let file = WishFile::load(&wishes).unwrap();
         let scene = Scene::load(&scenes.join(wishes.file_name().unwrap()), &[]).unwrap();
         let (force, _) =
-            file.wishes.unknowns(scene.field.force.len()).of(&scene.field.force, scene.motion.frames).unwrap();
+            file.wishes.unknowns(scene.field.force.len()).of(&scene.field.as_given(), scene.motion.frames).unwrap();
         assert!(force.windows(2).all(|pair: &[Keyframe]| pair[0].through < pair[1].through));
         let built = scene.build(Shown::AtMost(400)).unwrap();
         let named = file.about(&built).unwrap();

@@ -5,17 +5,21 @@ use std::path::Path;
 
 use glam::{DAffine3, DVec3, Vec3};
 use nabiki::body::Contact;
-use nabiki::free_form::{FreeForm, NeighbourForces};
+use nabiki::free_form::NeighbourForces;
 use nabiki::{Hair, Head};
 use nabiki_io::DeclaredSpace;
 use nabiki_io::motion::Axis;
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_scene::advice::Advice;
-use nabiki_scene::scene::{FormChoice, HairSource};
+use nabiki_scene::scene::{Amount, FormChoice, HairSource, Measure, Quantity};
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
 const FORCE: &str = "[[force]]\nthrough = 1\nvector = [0, -1, 0]\n";
+
+fn is_of_world<M: Measure>(amount: &Amount<M>) -> bool {
+    amount.quantity().is_some()
+}
 
 fn built(text: &str, path: &Path) -> BuiltScene {
     showing(text, path, Shown::All)
@@ -112,13 +116,23 @@ fn a_new_scene_finds_unit_and_axes_of_a_head_and_its_hair() {
 }
 
 #[test]
-fn a_new_scene_without_files_runs_in_the_free_form_with_its_defaults() {
+fn a_new_scene_without_files_runs_in_the_free_form_as_hair_in_life() {
     let path = Path::new("new.toml");
     let new = template(path, None, &[], None).unwrap();
     let stage = built(&new.text, path);
     assert_eq!((new.guesses.len(), advised(&stage)), (0, vec![]));
     let Scene { form, free, contact, neighbours, .. } = &stage.scene;
-    assert_eq!((form, free, contact), (&FormChoice::Free, &FreeForm::default(), &Contact::default()));
+    assert_eq!((form, contact), (&FormChoice::Free, &Contact::default()));
+    // In true timing, whatever the frame rate.
+    assert_eq!(free.gravity.quantity().map(Quantity::amount), Some(1.0));
+    let of_world = [&free.stiffness.map(is_of_world), &free.hold.map(is_of_world), &free.settle.map(is_of_world)];
+    assert!(of_world.iter().all(|profile| profile.values().iter().all(|&of_world| of_world)), "{free:?}");
+    assert!(stage.scene.field.force.iter().all(|force| force.speed.is_some()));
+    for rate in ["24", "25", "60"] {
+        let set = [("motion.frame_rate".to_owned(), rate.to_owned())];
+        let scene = Scene::parse(&new.text, path, &set).unwrap();
+        assert!(scene.build(Shown::AtMost(300)).unwrap().simulation().is_ok(), "{rate} frames a second");
+    }
     assert_eq!(neighbours, &None);
     // What it comments out is what it says.
     let more = ["[neighbours]", "pressure", "cohesion"];

@@ -31,7 +31,7 @@ fn touch_it(scene: &Scene) {
         let touches: [(&str, Touch); 5] = [
             ("a vector", |scene, n| scene.field.force[1].vector.y = n as f32),
             ("a border", |scene, n| scene.field.force[1].through = 20 + n as u32 % 10),
-            ("settling", |scene, n| scene.free.settle = nabiki::Profile::Even(20.0 + n as f32)),
+            ("settling", |scene, n| scene.free.settle = nabiki::Profile::Even((20.0 + n as f32).into())),
             ("the frames", |scene, n| scene.motion.frames = 100 - n as u32 % 2),
             ("the length of the hair", |scene, n| {
                 if let nabiki_scene::scene::HairSource::Grown(grown) = &mut scene.hair.source {

@@ -363,11 +363,12 @@ impl Panes<'_> {
         let (take, scene) = instead.map_or((take, scene), |(take, _)| (take, &take.built.scene));
         // From where the scene is seen, or nothing could be compared.
         let picture = Picture { camera: document.scene().picture.camera, ..scene.picture.clone() };
+        let force = take.built.strengths_of(&scene.field.force);
         let shown = Shown {
             scene: self.session.opened(),
             take,
             picture: &picture,
-            force: &scene.field.force,
+            force: &force,
             frame: self.session.play.frame().min(take.frames()),
             playing: self.session.play.is_playing(),
             selected_interval: match self.session.chosen() {

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::field::Keyframe;
 use nabiki::solve::Answer;
 use nabiki_scene::Scene;
+use nabiki_scene::scene::ForceSettings;
 use toml::Value;
 
 use crate::actions::Action;
@@ -34,13 +34,13 @@ pub enum Command {
         /// What is done to them.
         name: &'static str,
         /// What they are then.
-        keys: Vec<Keyframe>,
+        keys: Vec<ForceSettings>,
         /// Which are chosen then; as before if it is left out.
         chosen: Option<Vec<usize>>,
         /// How the change goes on.
         phase: Phase,
     },
-    /// Another vector of an interval.
+    /// Another vector of an interval, which is as strong as it is long.
     Vector {
         /// Which.
         interval: usize,

@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use nabiki::field::Keyframe;
 use nabiki_scene::told::SwingTable;
 use toml::Table;
 
@@ -226,6 +227,13 @@ impl Session {
     /// How long the swings of each interval take.
     pub fn swings(&self) -> Option<&SwingTable> {
         self.swings.as_ref()
+    }
+
+    /// The intervals of the wind by their strength, as the last good motion has it: that of a speed depends on the hair.
+    pub fn strengths(&self) -> Vec<Keyframe> {
+        let Some(document) = &self.document else { return Vec::new() };
+        let field = &document.scene().field;
+        self.take.as_ref().map_or_else(|| field.as_given(), |take| take.built.strengths_of(&field.force))
     }
 
     /// Why the scene as it is does not move; the last good motion is then another's.

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
-use nabiki::field::Keyframe;
+use nabiki_scene::scene::ForceSettings;
 
 use super::*;
 use crate::dialog::Next;
@@ -400,7 +400,7 @@ fn intervals_are_cut_joined_copied_and_pasted_as_single_steps() {
     assert_eq!(session.document().unwrap().undo_name(), None);
     session.apply(Command::Act(Action::SelectAll));
     session.apply(Command::Act(Action::Delete));
-    assert_eq!(keys(&session), [] as [Keyframe; 0]);
+    assert_eq!(keys(&session), [] as [ForceSettings; 0]);
     session.wait();
     assert_eq!(session.trouble(), None, "the free form moves without wind");
     session.apply(Command::Act(Action::Add));

@@ -171,19 +171,26 @@ pub enum Kind {
     HairColour,
     /// A number of at least 0, or a list of them from root to tip.
     Profile {
+        /// Units of the world that each may have.
+        units: &'static [&'static str],
         /// At most this.
         most: f64,
         /// What a drag by one point adds.
         step: f64,
     },
-    /// A number of at least 0, or a word.
-    NumberOr {
-        /// The word.
-        word: &'static str,
+    /// A number of at least 0.
+    Amount {
+        /// Units of the world that it may have.
+        units: &'static [&'static str],
         /// At most this.
         most: f64,
         /// What a drag by one point adds.
         step: f64,
+    },
+    /// A number of at least 0 with one of these units.
+    Quantity {
+        /// The units.
+        units: &'static [&'static str],
     },
     /// "fit", or centre and half axes.
     Ellipsoid,

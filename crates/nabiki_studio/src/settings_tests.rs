@@ -8,10 +8,11 @@ use super::*;
 fn scenes() -> Vec<Scene> {
     let read = |text: &str| Scene::parse(text, "all.toml".as_ref(), &[]).unwrap();
     let wind = "[[force]]\nthrough = 5\nvector = [1, 2, 3]\n";
+    let speed = "speed = \"5 m/s\"\n";
     let motion = "{ file = \"m.bvh\", skeleton = \"s.asf\", unit_cm = 1.0, up = \"+y\", facing = \"+z\", frames_per_second = 30.0 }";
     let lie = "unit = \"m\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [0, 0, 0]\n";
     let most = format!(
-        "{wind}[head]\nmotion = {motion}\n[gust]\n[body_wind]\n[flow]\n[turbulence]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n[neighbours]\n[disturbance]\n\
+        "{wind}{speed}[head]\nmotion = {motion}\n[gust]\n[body_wind]\n[flow]\n[turbulence]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n[neighbours]\n[disturbance]\n\
          [[fan]]\nposition = [0, 0, 0]\ndirection = [1, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
          [[vortex]]\nposition = [0, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
          [[point]]\nposition = [0, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
@@ -90,7 +91,7 @@ fn both_ends_of_what_a_field_takes_are_in_the_range_of_the_scene() {
             let ends = match setting.kind {
                 Kind::Number { least, most, .. } => [least, most].map(Value::Float),
                 Kind::Whole { least, most } => [least, most].map(Value::Integer),
-                Kind::Profile { most, .. } | Kind::NumberOr { most, .. } => [0.0, most].map(Value::Float),
+                Kind::Profile { most, .. } | Kind::Amount { most, .. } => [0.0, most].map(Value::Float),
                 _ => continue,
             };
             if BOUND_BY_ANOTHER.contains(&format!("{}.{}", group.table, setting.key).as_str()) {

@@ -1,21 +1,25 @@
 use super::*;
-use nabiki::field::KeyframedField;
+use nabiki::field::{Keyframe, KeyframedField};
 
-fn key(through: u32, x: f32) -> Keyframe {
-    Keyframe { through, vector: Vec3::new(x, 0.0, 0.0) }
+fn key(through: u32, x: f32) -> ForceSettings {
+    ForceSettings { through, vector: Vec3::new(x, 0.0, 0.0), speed: None }
 }
 
-fn three() -> Vec<Keyframe> {
+fn as_given(keys: &[ForceSettings]) -> Vec<Keyframe> {
+    keys.iter().map(|key| key.keyframe(0.0)).collect()
+}
+
+fn three() -> Vec<ForceSettings> {
     vec![key(10, 1.0), key(30, 2.0), key(60, 3.0)]
 }
 
 /// The force of every frame, which is what an interval is for.
-fn felt(keys: &[Keyframe]) -> Vec<f32> {
-    let field = KeyframedField::new(keys).unwrap();
+fn felt(keys: &[ForceSettings]) -> Vec<f32> {
+    let field = KeyframedField::new(&as_given(keys)).unwrap();
     (1..=80).map(|n| field.vector(n).x).collect()
 }
 
-fn ends(keys: &[Keyframe]) -> Vec<u32> {
+fn ends(keys: &[ForceSettings]) -> Vec<u32> {
     keys.iter().map(|key| key.through).collect()
 }
 
@@ -77,7 +81,7 @@ fn what_is_removed_leaves_its_place_to_the_one_before() {
 #[test]
 fn a_clip_lies_over_its_frames_and_no_others() {
     let clip = copy(&three(), &[0, 1]);
-    assert_eq!(clip, Clip(vec![(10, Vec3::X), (20, 2.0 * Vec3::X)]));
+    assert_eq!(clip, Clip(vec![(10, three()[0]), (20, three()[1])]));
     for from in 1..70_usize {
         let (pasted, chosen) = paste(&three(), from as u32, &clip);
         let (before, after) = (felt(&three()), felt(&pasted));
@@ -100,7 +104,7 @@ fn a_clip_lies_over_its_frames_and_no_others() {
 fn a_new_interval_is_always_there_afterwards() {
     for frame in 0..=80 {
         let (keys, j) = add(&three(), frame, 80);
-        assert!(KeyframedField::new(&keys).is_ok(), "at {frame}");
+        assert!(KeyframedField::new(&as_given(&keys)).is_ok(), "at {frame}");
         assert!(keys.len() == 4 && j < 4, "at {frame}: {keys:?}");
     }
     assert_eq!(ends(&add(&[], 3, 50).0), [50], "the first one is all the wind there is");
@@ -137,7 +141,7 @@ fn an_interval_that_ends_with_the_last_frame_that_there_is_can_be_worked_on_like
     let twice = Clip([all.0.clone(), all.0.clone()].concat());
     for (from, clip) in [(1, &all), (25, &all), (25, &twice)] {
         let (pasted, chosen) = paste(&keys, from, clip);
-        assert!(KeyframedField::new(&pasted).is_ok(), "{pasted:?}");
+        assert!(KeyframedField::new(&as_given(&pasted)).is_ok(), "{pasted:?}");
         assert_eq!((pasted.last().unwrap().through, chosen.last().unwrap() + 1), (LAST, pasted.len()));
     }
 }

@@ -35,6 +35,19 @@ pub fn earth_gravity(dynamics: &Dynamics, length_cm: f64) -> f32 {
     (EARTH_CM_PER_S2 / (rate * rate) / push(dynamics, length_cm)) as f32
 }
 
+/// The stiffness K with which hair of this length (cm) bends under this gravity within so many centimetres, (EI / w)^(1/3) of real hair:
+/// EI = 3/8 A L K d^2 and w = A `gravity` for a centimetre.
+pub fn stiffness_of(dynamics: &Dynamics, gravity: f64, length_cm: f64, bends_within_cm: f64) -> f64 {
+    8.0 * bends_within_cm.powi(3) * gravity / (3.0 * length_cm * f64::from(dynamics.segment_length).powi(2))
+}
+
+/// The force that carries limp hair of this length (cm) which settles in so many frames at 1 cm/s: F = alpha u / A.
+pub fn carrying_force(dynamics: &Dynamics, length_cm: f64, settle: f64) -> f64 {
+    let slow = f64::from(dynamics.motion.slow);
+    let (air, speed) = (2.0 / (settle * slow), 1.0 / (dynamics.motion.frame_rate * slow));
+    air * speed / push(dynamics, length_cm)
+}
+
 /// Frames of one small swing about a constant force, cos(2 pi / T) = 1 - c |F| / 2: exact for the scheme (7).
 ///
 /// NaN where the scheme is unstable, c |F| >= 4; infinite without force.

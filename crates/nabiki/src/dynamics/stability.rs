@@ -253,7 +253,7 @@ mod tests {
             }
             let mut free = FreeMotion::default();
             let [gravity, mut force] = powers.map(|power| (10.0_f32.powf(power) - 10.0).min(f32::MAX));
-            free.form.gravity = gravity.into();
+            free.form.gravity = gravity;
             let refused = |free: &FreeMotion, force: f32| {
                 let dynamics = Dynamics {
                     form: Form::Free(free.clone()),
@@ -267,14 +267,14 @@ mod tests {
                 let Some(error) = refused(&free, force) else { return Ok(()) };
                 let Some((_, limit)) = error.remedy.split_once(" below ").and_then(|(_, after)| after.split_once(" below ")) else {
                     // Nothing alone mends it: the largest goes.
-                    free.form.gravity = 0.0.into();
+                    free.form.gravity = 0.0;
                     continue;
                 };
                 let limit: f32 = limit.split(',').next().unwrap().parse().unwrap();
                 // Forces are given to four places.
                 let within = 0.999 * limit;
                 match error.thing.to_string().as_str() {
-                    "free.gravity" => free.form.gravity = within.into(),
+                    "free.gravity" => free.form.gravity = within,
                     _ => force = within,
                 }
                 prop_assert_eq!(refused(&free, force).map(|e| e.to_string()), None);

@@ -6,7 +6,7 @@
 /// its label, then what there is to say of these, in this order: `must "EXAMPLE"`, where a file cannot do without it (the default is
 /// then what a new table starts with); `unit "cm"`; `above`, `least` and `most`, which bound each of its numbers; `open "WHAT"`, what is
 /// taken where it is left open. `pub KEY: TYPE => of STRUCT;` is a setting that another struct declares under the same key: default,
-/// label, unit and range are that one's, the help is its own. `in "TABLE"` names the table that the struct always is, and gives
+/// label, unit and range are that one's, the help is its own; `pub KEY: TYPE = DEFAULT => of STRUCT;` is one of another type. `in "TABLE"` names the table that the struct always is, and gives
 /// `check()`. `where RULE` names a function of the struct that refuses what no range can say:
 /// `fn RULE(&self, at: &Place) -> Result<(), SettingError>`.
 ///
@@ -114,7 +114,7 @@ macro_rules! settings {
         $crate::settings!(@check $name $($place)?);
     };
 
-    (@default $key:ident [$default:expr] []) => { $default };
+    (@default $key:ident [$default:expr] [$($of:ident)?]) => { $default };
     (@default $key:ident [] [$of:ident]) => { <$of as ::std::default::Default>::default().$key };
     (@absent $key:ident $default:tt $of:tt) => { $crate::settings!(@default $key $default $of) };
     (@absent $key:ident $default:tt $of:tt, $must:literal) => {

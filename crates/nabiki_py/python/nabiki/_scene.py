@@ -20,22 +20,23 @@ if TYPE_CHECKING:
 
     from .settings import SceneTables
 
-Force = tuple[int, Numbers]
-Interval = tuple[int, tuple[float, float, float]]
+Force = tuple[int, Numbers] | tuple[int, Numbers, str]
+Interval = tuple[int, tuple[float, float, float]] | tuple[int, tuple[float, float, float], str]
 Body = File | Arrays | Mapping[str, Any]
 
 
 def _interval(place: int, force: Any) -> dict[str, Any]:
     """An interval of the wind as a scene has it."""
     try:
-        through, vector = force
+        through, vector, *more = force
+        (speed,) = more or [None]
     except (TypeError, ValueError):
         value = " ".join(reprlib.repr(force).split())
         if len(value) > 80:
             value = f"a {type(force).__name__}"
-        thing, way_out = f"forces[{place}]", "must be (last frame, (x, y, z))"
+        thing, way_out = f"forces[{place}]", "must be (last frame, (x, y, z)), or (last frame, (x, y, z), speed)"
         raise Error(f"{thing} = {value}: {way_out}", thing=thing, value=value, way_out=way_out) from None
-    return {"through": through, "vector": vector}
+    return {"through": through, "vector": vector} | ({} if speed is None else {"speed": speed})
 
 
 class Scene(SceneSettings):
@@ -76,12 +77,16 @@ class Scene(SceneSettings):
 
     @property
     def forces(self) -> Written[Interval, Force]:
-        """The intervals of `[[force]]`: the last frame of each, and the vector that pulls through it."""
+        """The intervals of `[[force]]`: the last frame of each, and the vector that pulls through it; where it has one, its speed."""
 
         def write(forces: Iterable[Force]) -> None:
             self.forces = forces
 
-        return Written(lambda: [(force.through, force.vector) for force in self.force], write)
+        def read() -> list[Interval]:
+            with_speed = [(force.through, force.vector, force.speed) for force in self.force]
+            return [force if force[2] is not None else force[:2] for force in with_speed]
+
+        return Written(read, write)
 
     @forces.setter
     def forces(self, forces: Iterable[Force]) -> None:

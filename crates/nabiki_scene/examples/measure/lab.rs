@@ -79,7 +79,7 @@ fn dynamics(gamma: f64, rate: f64, settle: f64) -> Dynamics {
         stiffness: Profile::Even(stiffness as f32),
         hold: Profile::Even(0.0),
         settle: Profile::Even(settle as f32),
-        gravity: gravity.into(),
+        gravity,
         drag: nabiki::Profile::Even(1.0),
         ..FreeForm::default()
     };
@@ -93,7 +93,7 @@ fn swings(gamma: f64) -> Result<[f64; 2], SettingError> {
     const FRAMES: u32 = 480;
     let dynamics = dynamics(gamma, AT_24, 0.0);
     let Form::Free(free) = &dynamics.form else { unreachable!() };
-    let push = Vec3::X * 0.05 * free.form.weight();
+    let push = Vec3::X * 0.05 * free.form.gravity;
     let keys = [Keyframe { through: 1, vector: push }, Keyframe { through: 2, vector: Vec3::ZERO }];
     let field = Arc::new(KeyframedField::new(&keys)?);
     let mut timeline = Timeline::new(&hanging(), &dynamics, field, Vec::new(), FRAMES)?;
@@ -121,7 +121,7 @@ fn moved(way: impl Fn(f64) -> DVec3, seconds: f64, aside: DVec3) -> Result<[Vec<
     let frames = (seconds * RATE) as u32;
     let dynamics = dynamics(50.0, RATE, SETTLES_S * RATE);
     let Form::Free(free) = &dynamics.form else { unreachable!() };
-    let push = aside.as_vec3() * free.form.weight();
+    let push = aside.as_vec3() * free.form.gravity;
     let keys = [Keyframe { through: 1, vector: push }, Keyframe { through: 2, vector: Vec3::ZERO }];
     let field = Arc::new(KeyframedField::new(&keys)?);
     let pose = |n: u32| Pose { rotation: Quat::IDENTITY, position_cm: way(f64::from(n) / RATE).as_vec3() };

@@ -131,7 +131,7 @@ pub fn properties(dynamics: &Dynamics, points: &[DVec3]) -> Properties {
     let each = || 0..lengths.len();
     Properties {
         of_force,
-        weight: DVec3::NEG_Y * of_force * f64::from(free.form.weight()),
+        weight: DVec3::NEG_Y * of_force * f64::from(free.form.gravity),
         bending: each().map(|i| 0.375 * of_force * length * free.form.stiffness.at(begin(i)) * d * d).collect(),
         hold: each().map(|i| of_force * free.form.hold.at(0.5 * (begin(i) + ends[i]))).collect(),
         drag: each()
@@ -201,7 +201,7 @@ fn rest_and_return(built: &BuiltScene, mut scene: Scene, strands: usize) -> Resu
     let film = timeline.play();
     let rests = (1..=film.frames()).all(|n| film.points(n) == film.points(0));
     println!("without wind                              {}", if rests { "rests to the bit" } else { "does not rest" });
-    let Some(last) = scene.field.force.last().filter(|key| key.vector == Vec3::ZERO) else { return Ok(()) };
+    let Some(last) = built.forces.intervals().last().filter(|key| key.vector == Vec3::ZERO) else { return Ok(()) };
     scene.motion.frames = last.through + (10.0 * built.dynamics.motion.frame_rate) as u32;
     let built = scene.build(Shown::AtMost(strands))?;
     let mut timeline = built.timeline()?;

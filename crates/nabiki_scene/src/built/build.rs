@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use nabiki::dynamics::carrying_force;
 use nabiki_io::cache::Shard;
 use nabiki_render::colour;
 
-use super::dynamics::{dynamics, set_free};
+use super::dynamics::{dynamics, mean_lengths, set_free};
 use super::forces::ForcesInputs;
 use super::groom::{Groom, GroomInputs, Wanted};
 use super::model::{Model, ModelInputs};
@@ -45,7 +46,6 @@ fn build_about(
     way.check_length(&scene)?;
     let rest_pose = way.poses.first().copied().unwrap_or_default();
     let mut dynamics = dynamics(&scene, &model, rest_pose, at)?;
-    let forces = Forces::of(ForcesInputs::of(&scene, &model, &way), known.iter().map(|known| &known.forces), at)?;
     let known_grooms = || known.iter().map(|known| &known.groom);
     let inputs = GroomInputs::of(&scene, &model, dynamics.polar_axis, wanted, known_grooms(), at)?;
     let mut groom = Groom::of(inputs, known_grooms(), at)?;
@@ -59,22 +59,34 @@ fn build_about(
             (worn.width, worn.colour) = look;
         }
     }
-    let mut bodies = Vec::new();
+    let (mut bodies, mut of_speed) = (Vec::new(), 0.0);
     if scene.form == FormChoice::Free {
+        let mean = mean_lengths(&groom.first);
+        let form = scene.free.resolved(&dynamics, mean);
+        of_speed = carrying_force(&dynamics, mean.strand, form.settle.mean());
         let known = known.iter().flat_map(|known| &known.bodies);
-        bodies = set_free(&mut dynamics, &scene, &model, &groom.first, rest_pose, known, at)?;
+        bodies = set_free(&mut dynamics, form, &scene, &model, &groom.first, rest_pose, known, at)?;
     }
-    Ok(BuiltScene { scene, model, way, groom, forces, dynamics, bodies })
+    let intervals = scene.field.force.iter().map(|force| force.keyframe(of_speed)).collect();
+    let inputs = ForcesInputs::of(&scene, &model, &way, intervals);
+    let forces = Forces::of(inputs, known.iter().map(|known| &known.forces), at)?;
+    Ok(BuiltScene { scene, model, way, groom, forces, dynamics, bodies, of_speed })
 }
 
 /// What each of the scene's fields can reach, and last `all` of them together.
 pub(super) fn field_bounds(scene: &Scene) -> Result<Vec<FieldBound>> {
+    let with_all = |Forces { field, bounds, .. }: &Forces| {
+        let all = FieldBound { name: "all".to_owned(), at_most: field.strongest() };
+        bounds.iter().cloned().chain([all]).collect()
+    };
+    if scene.field.force.iter().any(|force| force.speed.is_some()) {
+        // How strong a wind of some speed is depends on how long the hair is.
+        return Ok(with_all(&scene.clone().build(Shown::AtMost(1))?.forces));
+    }
     let at = At::new(scene, &|_| true);
     let model = Model::make(ModelInputs::of(scene), at)?;
     let way = Way::make(WayInputs::of(scene, &model), at)?;
     way.check_length(scene)?;
-    let forces = Forces::make(ForcesInputs::of(scene, &model, &way), at);
-    let Forces { field, mut bounds, .. } = forces.map_err(|refused| refused.blamed_on(model.of_size()))?;
-    bounds.push(FieldBound { name: "all".to_owned(), at_most: field.strongest() });
-    Ok(bounds)
+    let forces = Forces::make(ForcesInputs::of(scene, &model, &way, scene.field.as_given()), at);
+    Ok(with_all(&forces.map_err(|refused| refused.blamed_on(model.of_size()))?))
 }

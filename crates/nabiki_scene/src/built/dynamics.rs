@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use nabiki::dynamics::{Dynamics, Form, earth_gravity, substeps};
-use nabiki::free_form::{FreeForm, FreeMotion, Gravity, Neighbours};
+use nabiki::dynamics::{Dynamics, Form};
+use nabiki::free_form::{FreeForm, FreeMotion, Neighbours};
 use nabiki::locks::Locks;
 use nabiki::{Pose, Strands};
 
@@ -11,7 +11,7 @@ use super::bodies::{BodyInputs, BuiltBody};
 use super::model::Model;
 use super::stage::{At, Stage};
 use crate::error::Result;
-use crate::scene::{FormChoice, Scene};
+use crate::scene::{FormChoice, MeanLengths, Scene};
 
 /// Strands that stand for the whole where one number is wanted of it.
 const FEW: usize = 256;
@@ -46,10 +46,20 @@ fn locks(scene: &Scene) -> Locks {
     Locks { size: size.unwrap_or(clumps.size), ..clumps }
 }
 
-/// Gives `dynamics` the scene's free form. `first`: strands of the whole, as many as are wanted or as there are. Returns the
+/// How long the hair is in the mean. `first`: strands of the whole.
+pub(super) fn mean_lengths(first: &Strands) -> MeanLengths {
+    let all: f64 = first.lengths().take(FEW).map(f64::from).sum();
+    let segments: usize = first.iter().take(FEW).map(|strand| strand.len() - 1).sum();
+    let [strand, segment] = [first.len().min(FEW), segments].map(|count| all / count.max(1) as f64);
+    MeanLengths { strand, segment }
+}
+
+/// Gives `dynamics` the free form with these settings, among all that the scene has. `first`: strands of the whole, as many as are wanted or as there are. Returns the
 /// scene's bodies, of which those that are `known` are kept.
+#[expect(clippy::too_many_arguments, reason = "all that surrounds the hair")]
 pub(super) fn set_free<'a>(
     dynamics: &mut Dynamics,
+    form: FreeForm,
     scene: &Scene,
     model: &Model,
     first: &Strands,
@@ -57,14 +67,6 @@ pub(super) fn set_free<'a>(
     known: impl Iterator<Item = &'a Arc<BuiltBody>> + Clone,
     at: At<'_>,
 ) -> Result<Vec<Arc<BuiltBody>>> {
-    let all: f64 = first.lengths().take(FEW).map(f64::from).sum();
-    let segments: usize = first.iter().take(FEW).map(|strand| strand.len() - 1).sum();
-    let [mean, segment] = [first.len().min(FEW), segments].map(|count| all / count.max(1) as f64);
-    let gravity = match scene.free.gravity {
-        Gravity::Strength(strength) => strength,
-        Gravity::Earth => earth_gravity(dynamics, mean),
-    };
-    let steps = scene.free.substeps.unwrap_or_else(|| substeps(dynamics, &scene.free, gravity, [mean, segment]));
     let (mut felt, mut bodies) = (vec![model.body(scene.contact)], Vec::new());
     for (i, settings) in scene.bodies.iter().enumerate() {
         // All hair is grown by now.
@@ -77,7 +79,6 @@ pub(super) fn set_free<'a>(
         let carriers = (forces.carriers as usize).min(first.len());
         Neighbours::new(forces.clone(), Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())))
     });
-    let form = FreeForm { gravity: Gravity::Strength(gravity), substeps: Some(steps), ..scene.free.clone() };
     dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, locks: locks(scene), rest_pose });
     dynamics.check().map_err(|refused| at.refusal(refused))?;
     Ok(bodies)

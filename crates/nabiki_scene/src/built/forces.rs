@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nabiki::field::Field;
+use nabiki::field::{Field, Keyframe};
 
 use super::model::Model;
 use super::stage::{At, Stage};
@@ -28,11 +28,13 @@ pub struct Forces {
 pub(crate) struct ForcesInputs {
     settings: FieldSettings,
     pub place: FieldPlace,
+    /// The intervals of `[[force]]` by their strength.
+    intervals: Vec<Keyframe>,
 }
 
 impl ForcesInputs {
-    /// Those about a head on its way.
-    pub fn of(scene: &Scene, model: &Model, way: &Way) -> Self {
+    /// Those about a head on its way, with the intervals of `[[force]]` by their strength.
+    pub fn of(scene: &Scene, model: &Model, way: &Way, intervals: Vec<Keyframe>) -> Self {
         let place = FieldPlace {
             ellipsoid: model.head.ellipsoid,
             poses: way.poses.clone(),
@@ -41,7 +43,14 @@ impl ForcesInputs {
             space: scene.motion.force_space,
             may_be_none: scene.form == FormChoice::Free,
         };
-        Self { settings: scene.field.clone(), place }
+        Self { settings: scene.field.clone(), place, intervals }
+    }
+}
+
+impl Forces {
+    /// The intervals of `[[force]]` by their strength.
+    pub fn intervals(&self) -> &[Keyframe] {
+        &self.inputs.intervals
     }
 }
 
@@ -53,7 +62,7 @@ impl Stage for Forces {
     }
 
     fn make(inputs: ForcesInputs, at: At<'_>) -> Result<Self> {
-        let built = inputs.settings.build(&inputs.place);
+        let built = inputs.settings.build(&inputs.place, &inputs.intervals);
         let FieldParts { field, wind, bounds } = built.map_err(|refused| at.refusal(refused))?;
         Ok(Self { inputs, field, wind, bounds })
     }

@@ -10,7 +10,7 @@ use nabiki_io::identity::{Digest, SceneId, StrandSum};
 
 use super::{BuiltScene, ShardOf};
 use crate::error::{Error, Result};
-use crate::scene::HairSource;
+use crate::scene::{FieldSettings, ForceSettings, HairSource};
 
 impl BuiltScene {
     /// Everything that decides how the hair moves, but not how many frames are made of it, nor how it is drawn. Two
@@ -69,9 +69,11 @@ impl BuiltScene {
         digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
         digest.settings("ellipsoid", &self.dynamics.ellipsoid)?;
         digest.settings("pseudo_force", &self.dynamics.weakening().cloned().unwrap_or_else(PseudoForce::off))?;
-        digest.settings("force", &self.scene.field.force)?;
+        let force = self.forces.intervals();
+        digest.settings("force", &force)?;
         if !self.scene.field.is_the_papers() {
-            digest.settings("fields", &self.scene.field)?;
+            let force = force.iter().copied().map(ForceSettings::from).collect();
+            digest.settings("fields", &FieldSettings { force, ..self.scene.field.clone() })?;
             // Gusts and the head's velocity are those of seconds.
             digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
         }

@@ -5,23 +5,27 @@ use std::path::Path;
 
 use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
-use nabiki::dynamics::Motion;
+use nabiki::dynamics::{Form, Motion};
 use nabiki::field::{Ease, Keyframe};
-use nabiki::free_form::{FreeForm, Gravity, NeighbourForces};
+use nabiki::free_form::{FreeForm, NeighbourForces};
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::setting::{Datum, Kind, Setting, Settings, Table, Value};
 use nabiki::{Ellipsoid, Profile};
 use serde::Serialize;
 
 use crate::advice::Advice;
+use crate::built::{BuiltScene, Shown};
 use crate::looks_wrong::unused;
-use crate::scene::{BodySettings, FieldBound, FieldSettings, FormChoice, GrownHair, HairSource, ImportedHair, Scene};
+use crate::scene::{
+    Amount, BodySettings, FieldBound, FieldSettings, ForceSettings, FormChoice, FreeSettings, GrownHair, HairSource,
+    ImportedHair, Measure, Scene,
+};
 use crate::schema;
 use nabiki_io::info::Short;
 use nabiki_io::motion::MotionSource;
 use nabiki_io::screen::OneLine;
 
-/// The outline of a scene; of what it names the head and its motion alone are loaded. Other files that are not there are said to
+/// The outline of a scene; of what it names the head and its motion are loaded, and in the free form the rest. Files that are not there are said to
 /// be missing beside their names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -53,7 +57,9 @@ pub struct SceneInfo {
     /// What hair keeps out of besides the head, or is drawn with it, each by its table.
     pub bodies: Vec<(String, String)>,
     /// The vectors of the field.
-    pub force: Vec<Keyframe>,
+    pub force: Vec<ForceSettings>,
+    /// The same by their strength, where there is a speed and the hair can be loaded.
+    pub strengths: Vec<Keyframe>,
     /// How they follow one another.
     pub ease: Ease,
     /// The other fields in words, each by its table.
@@ -74,18 +80,10 @@ pub struct SceneInfo {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FreeInfo {
-    /// K, from root to tip.
-    pub stiffness: Vec<f32>,
-    /// H, from root to tip.
-    pub hold: Vec<f32>,
-    /// Frames in which a swing dies to 1/e, from root to tip.
-    pub settle: Vec<f32>,
-    /// The strength of weight, or "earth".
-    pub gravity: Gravity,
-    /// How far hair is left behind by a head that moves, from root to tip.
-    pub drag: Vec<f32>,
-    /// Steps that a frame is divided into; none where weight and stiffness decide.
-    pub steps: Option<u32>,
+    /// As the scene has it.
+    pub given: FreeSettings,
+    /// The same in the unit of the force and in frames, with the steps of a frame, where the hair can be loaded.
+    pub resolved: Option<FreeForm>,
     /// How far from the head's skin nodes are kept (cm).
     pub margin: f32,
     /// Hair against hair, where it is on.
@@ -93,15 +91,14 @@ pub struct FreeInfo {
 }
 
 impl FreeInfo {
-    fn of(scene: &Scene) -> Option<Self> {
-        let values = |profile: &Profile| profile.values().to_vec();
+    fn of(scene: &Scene, built: Option<&BuiltScene>) -> Option<Self> {
+        let resolved = built.and_then(|built| match &built.dynamics.form {
+            Form::Paper => None,
+            Form::Free(free) => Some(free.form.clone()),
+        });
         (scene.form == FormChoice::Free).then(|| Self {
-            stiffness: values(&scene.free.stiffness),
-            hold: values(&scene.free.hold),
-            settle: values(&scene.free.settle),
-            gravity: scene.free.gravity,
-            drag: values(&scene.free.drag),
-            steps: scene.free.substeps,
+            given: scene.free.clone(),
+            resolved,
             margin: scene.contact.margin,
             neighbours: scene.neighbours.clone(),
         })
@@ -121,8 +118,11 @@ impl SceneInfo {
             }
         };
         let head = scene.load_head();
+        let by_speed = scene.field.force.iter().any(|force| force.speed.is_some());
         let bounds = if scene.field.is_the_papers() { Ok(Vec::new()) } else { scene.field_bounds() };
-        let free = FreeInfo::of(scene);
+        // What a unit of the world comes to, and how many steps a frame takes, depends on how long the hair is.
+        let built = (scene.form == FormChoice::Free).then(|| scene.clone().build(Shown::AtMost(1)).ok()).flatten();
+        let free = FreeInfo::of(scene, built.as_ref());
         Self {
             head: scene.head.mesh(),
             ellipsoid: head.as_ref().ok().map(|head| head.ellipsoid),
@@ -143,6 +143,7 @@ impl SceneInfo {
                 .map(|(i, body)| (format!("body[{i}]"), body_in_words(scene, body)))
                 .collect(),
             force: scene.field.force.clone(),
+            strengths: built.filter(|_| by_speed).map_or(Vec::new(), |built| built.forces.intervals().to_vec()),
             ease: scene.field.wind.ease,
             fields: in_words(&scene.field),
             bounds: bounds.as_ref().cloned().unwrap_or_default(),
@@ -191,9 +192,16 @@ impl fmt::Display for SceneInfo {
             write!(f, "\n{name}: {}", OneLine(words))?;
         }
         let mut first = 1;
-        for key in &self.force {
+        for (j, key) in self.force.iter().enumerate() {
             let [x, y, z] = key.vector.to_array().map(Short);
-            write!(f, "\nforce: ({x}, {y}, {z}) in frames {first} to {}", key.through)?;
+            match key.speed {
+                None => write!(f, "\nforce: ({x}, {y}, {z})")?,
+                Some(speed) => write!(f, "\nforce: {speed} along ({x}, {y}, {z})")?,
+            }
+            if let (Some(_), Some(strength)) = (key.speed, self.strengths.get(j)) {
+                write!(f, " (|F| = {})", grouped(strength.vector.length()))?;
+            }
+            write!(f, " in frames {first} to {}", key.through)?;
             first = key.through.saturating_add(1);
         }
         match self.ease {
@@ -222,30 +230,97 @@ impl fmt::Display for SceneInfo {
 
 impl fmt::Display for FreeInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { stiffness, hold, settle, gravity, drag, steps, margin, neighbours } = self;
-        let profile = |key: &str, values: &Vec<f32>| labelled::<FreeForm>(key, values.clone());
-        let [stiffness, hold, settle, drag] =
-            [("stiffness", stiffness), ("hold", hold), ("settle", settle), ("drag", drag)]
-                .map(|(key, it)| profile(key, it));
-        let weight = match gravity {
-            Gravity::Strength(strength) => labelled::<FreeForm>("gravity", *strength),
-            Gravity::Earth => "weight as on earth".to_owned(),
-        };
-        let steps = match steps {
+        let Self { given, resolved, margin, neighbours } = self;
+        let number = |of: fn(&FreeForm) -> &Profile| resolved.as_ref().map(|form| of(form).values().to_vec());
+        let told = [
+            amounts("stiffness", &given.stiffness, number(|form| &form.stiffness)),
+            amounts("hold", &given.hold, number(|form| &form.hold)),
+            amounts("settle", &given.settle, number(|form| &form.settle)),
+            amounts("gravity", &Profile::Even(given.gravity), resolved.as_ref().map(|form| vec![form.gravity])),
+            labelled::<FreeSettings>("drag", given.drag.clone()),
+        ];
+        let steps = match resolved.as_ref().map(FreeForm::steps).or(given.substeps) {
             None => "steps a frame by weight and stiffness".to_owned(),
             Some(1) => "1 step a frame".to_owned(),
             Some(steps) => format!("{steps} steps a frame"),
         };
-        write!(
-            f,
-            "free: {stiffness}, {hold}, {settle}, {weight}, {drag}, {steps}\ncontact: {}",
-            labelled::<Contact>("margin", *margin)
-        )?;
+        write!(f, "free: {}, {steps}\ncontact: {}", told.join(", "), labelled::<Contact>("margin", *margin))?;
         if let Some(NeighbourForces { cohesion, pressure, .. }) = neighbours {
             let of = |key: &str, strength: f32| labelled::<NeighbourForces>(key, strength);
             write!(f, "\nneighbours: {}, {}", of("cohesion", *cohesion), of("pressure", *pressure))?;
         }
         Ok(())
+    }
+}
+
+/// A setting of `[free]` as it is given, and what that comes to where it is given in a unit of the world:
+/// `stiffness 9 cm to 4.5 cm (K = 250,000 to 31,000)`.
+fn amounts<M: Measure>(key: &str, given: &Profile<Amount<M>>, numbers: Option<Vec<f32>>) -> String {
+    let setting = FreeSettings::TABLE.setting(key);
+    let one = |amount: &Amount<M>| match amount {
+        Amount::Number(number) => Short(*number).to_string(),
+        Amount::World(quantity) => quantity.to_string(),
+    };
+    let told = given.values().iter().map(one).collect::<Vec<_>>().join(" to ");
+    let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" {}", setting.range.unit) };
+    let label = setting.label.to_lowercase();
+    if !is_of_world(given) {
+        return format!("{label} {told}{unit}");
+    }
+    match numbers {
+        None => format!("{label} {told}"),
+        Some(numbers) => format!("{label} {told} ({})", come_to(setting, &numbers)),
+    }
+}
+
+/// Numbers of a setting of `[free]`, by its symbol and in its own unit: `K = 250,000 to 31,000`.
+fn come_to(setting: &Setting, numbers: &[f32]) -> String {
+    let symbol = match setting.key {
+        "stiffness" => "K = ",
+        "hold" => "H = ",
+        _ => "",
+    };
+    let unit = if setting.range.unit.is_empty() { String::new() } else { format!(" {}", setting.range.unit) };
+    let numbers: Vec<String> = numbers.iter().map(|&number| grouped(number)).collect();
+    format!("{symbol}{}{unit}", numbers.join(" to "))
+}
+
+impl BuiltScene {
+    /// What a setting, `free.stiffness`, that is given in a unit of the world comes to in its own: `K = 250,000 to 31,000`.
+    pub fn comes_to(&self, key: &str) -> Option<String> {
+        let (Form::Free(free), Some(key)) = (&self.dynamics.form, key.strip_prefix("free.")) else { return None };
+        let (given, form) = (&self.scene.free, &free.form);
+        let (of_world, numbers) = match key {
+            "stiffness" => (is_of_world(&given.stiffness), form.stiffness.values()),
+            "hold" => (is_of_world(&given.hold), form.hold.values()),
+            "settle" => (is_of_world(&given.settle), form.settle.values()),
+            "gravity" => (given.gravity.quantity().is_some(), std::slice::from_ref(&form.gravity)),
+            _ => return None,
+        };
+        of_world.then(|| come_to(FreeSettings::TABLE.setting(key), numbers))
+    }
+}
+
+/// Whether any of the numbers is given in a unit of the world.
+fn is_of_world<M: Measure>(given: &Profile<Amount<M>>) -> bool {
+    given.values().iter().any(|amount| amount.quantity().is_some())
+}
+
+/// A number with three digits that count, and commas between its thousands.
+fn grouped(number: f32) -> String {
+    let size = number.abs();
+    if size < 1000.0 || !size.is_finite() {
+        return Short(number).to_string();
+    }
+    let unit = 10.0_f64.powf(f64::from(size).log10().floor() - 2.0);
+    let digits = format!("{:.0}", (f64::from(number) / unit).round() * unit);
+    let groups = |digits: &str| {
+        let bytes: Vec<&[u8]> = digits.as_bytes().rchunks(3).rev().collect();
+        bytes.iter().map(|group| String::from_utf8_lossy(group)).collect::<Vec<_>>().join(",")
+    };
+    match digits.strip_prefix('-') {
+        Some(digits) => format!("-{}", groups(digits)),
+        None => groups(&digits),
     }
 }
 

@@ -3,13 +3,12 @@
 use glam::Vec3;
 use nabiki::body::Contact;
 use nabiki::field::{EnvelopeKey, KeyframedField, Turbulence, envelope};
-use nabiki::free_form::FreeForm;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_groom::style::Variation;
 use nabiki_render::settings::{Antialiasing, Camera, HairLook, HeadLook, Picture, Projection, Shading};
 
 use super::{Advice, Fix};
-use crate::scene::{FieldSettings, FormChoice, Scene};
+use crate::scene::{FieldSettings, FormChoice, FreeSettings, Scene};
 
 /// What is given and changes nothing.
 pub(crate) fn unused(scene: &Scene) -> Vec<Advice> {
@@ -36,7 +35,7 @@ fn unfelt(scene: &Scene) -> Option<Advice> {
         return None;
     }
     let tables = [
-        (scene.free != FreeForm::default(), "[free]"),
+        (scene.free != FreeSettings::default(), "[free]"),
         (scene.contact != Contact::default(), "[contact]"),
         (scene.bodies.iter().any(|body| body.solid), "[[body]]"),
         (scene.neighbours.is_some(), "[neighbours]"),
@@ -79,7 +78,7 @@ fn last_frame(scene: &Scene) -> u32 {
 /// Intervals after the last frame.
 fn too_late(scene: &Scene) -> Option<String> {
     let (force, last) = (&scene.field.force, last_frame(scene));
-    let wind = KeyframedField::new(force).ok()?.eased(scene.field.wind.ease);
+    let wind = KeyframedField::new(&scene.field.as_given()).ok()?.eased(scene.field.wind.ease);
     // Behind a new interval that ends with the last frame a solver leaves one frame of what was there before.
     let late = |&j: &usize| wind.first_felt(j) > last && force[j].through != last.saturating_add(1);
     let j = (0..force.len()).find(late)?;

@@ -147,8 +147,8 @@ impl Follower {
 
     /// Whether there are frames for another interval before that of a pull at this one.
     pub fn has_room_for_another(built: &BuiltScene, frame: u32) -> bool {
-        let field = &built.scene.field;
-        let wind = KeyedWind { keyframes: field.force.clone(), ease: field.wind.ease, gust: None };
+        let wind =
+            KeyedWind { keyframes: built.forces.intervals().to_vec(), ease: built.scene.field.wind.ease, gust: None };
         LENGTHS.into_iter().any(|length| two_intervals(&wind, frame, length, Freedom::default()).is_some())
     }
 

@@ -31,7 +31,7 @@ fn at(built: &BuiltScene, frame: u32) -> Strands {
 /// The same scene as a pull has left it.
 fn pulled(built: &BuiltScene, answer: &Answer) -> BuiltScene {
     let mut scene = built.scene.clone();
-    scene.accept(answer);
+    scene.accept(answer, built);
     scene.build(Shown::All).unwrap()
 }
 
@@ -64,7 +64,7 @@ fn a_lock_of_the_gust_comes_to_a_hand_five_centimetres_away_and_the_wind_beside_
         assert!(found.left_cm < 0.3, "strand {strand}: {found:?}");
         assert_eq!((found.ended, &found.stop), (true, &None));
         let mut scene = built.scene.clone();
-        scene.accept(&found.answer);
+        scene.accept(&found.answer, &built);
         let after = scene.build(Shown::First(300)).unwrap();
         let off = middle(&lock, &at(&after, 20)).distance(goal);
         assert!((f64::from(off) - found.left_cm).abs() < 0.05, "{off} in the scene, {} in the search", found.left_cm);
@@ -213,7 +213,7 @@ fn a_wind_that_hair_cannot_be_stepped_in_is_named() {
     let mut built = gust(1);
     let mut allows = |gravity: u32| {
         let Form::Free(free) = &mut built.dynamics.form else { unreachable!() };
-        free.form.gravity = (gravity as f32).into();
+        free.form.gravity = gravity as f32;
         built.timeline().is_ok()
     };
     let (mut most, mut refused) = (1, 1 << 24);

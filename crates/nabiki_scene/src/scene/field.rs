@@ -13,6 +13,7 @@ use nabiki::{Ellipsoid, Pose, SettingError};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
+use super::force::ForceSettings;
 use super::tree::{Unwritable, table_of};
 
 /// What pushes the hair. The wind is the sum of `[[force]]`, which `[gust]` makes stronger and weaker, and `[body_wind]`;
@@ -21,7 +22,7 @@ use super::tree::{Unwritable, table_of};
 #[serde(deny_unknown_fields, default)]
 pub struct FieldSettings {
     /// Vectors uniform in space, each over some frames: equation (5). `[[force]]`
-    pub force: Vec<Keyframe>,
+    pub force: Vec<ForceSettings>,
     /// How they follow one another. `[wind]`
     pub wind: Wind,
     /// A random factor on them. `[gust]`
@@ -92,7 +93,12 @@ pub struct FieldBound {
 impl FieldSettings {
     /// A field of keyframes alone: the paper's.
     pub fn keyframes(force: Vec<Keyframe>) -> Self {
-        Self { force, ..Self::default() }
+        Self { force: force.into_iter().map(ForceSettings::from).collect(), ..Self::default() }
+    }
+
+    /// The intervals as they are given, those of a speed with the direction alone.
+    pub fn as_given(&self) -> Vec<Keyframe> {
+        self.force.iter().map(ForceSettings::as_given).collect()
     }
 
     /// Whether it is the paper's, of `[[force]]` alone, stepped.
@@ -121,8 +127,9 @@ impl FieldSettings {
             return Err(SettingError::new("wind.ease", wind.ease.word(), remedy));
         }
         if !force.is_empty() {
-            KeyframedField::new(force)?;
+            KeyframedField::new(&self.as_given())?;
         }
+        force.iter().enumerate().try_for_each(|(j, force)| force.check_speed(&format!("force[{j}]")))?;
         if let Some(gust) = gust {
             gust.check()?;
             if force.is_empty() {
@@ -151,21 +158,26 @@ impl FieldSettings {
         fan.iter().enumerate().try_for_each(|(i, fan)| fan.check_at(&named("fan", i)))
     }
 
-    /// The fields, ready to be asked.
+    /// The fields, ready to be asked. `force`: the strengths of `[[force]]`.
     ///
     /// # Errors
     /// As [`check`](Self::check), and what only shows about this head: an ellipsoid too flat for the flow.
-    pub(crate) fn build(&self, place: &FieldPlace) -> Result<FieldParts, SettingError> {
-        self.build_about(place, None)
+    pub(crate) fn build(&self, place: &FieldPlace, force: &[Keyframe]) -> Result<FieldParts, SettingError> {
+        self.build_of(place, force, None)
     }
 
     /// The same, where this wind blows in the place of `[[force]]` and `[gust]`.
     ///
     /// # Errors
     /// As [`build`](Self::build).
-    pub(crate) fn build_about(
+    pub(crate) fn build_about(&self, place: &FieldPlace, instead: Arc<dyn Field>) -> Result<FieldParts, SettingError> {
+        self.build_of(place, &[], Some(instead))
+    }
+
+    fn build_of(
         &self,
         place: &FieldPlace,
+        force: &[Keyframe],
         instead: Option<Arc<dyn Field>>,
     ) -> Result<FieldParts, SettingError> {
         self.check(!place.poses.is_empty(), place.may_be_none)?;
@@ -174,8 +186,8 @@ impl FieldSettings {
         let mut winds: Vec<Arc<dyn Field>> = Vec::new();
         if let Some(wind) = &instead {
             winds.push(wind.clone());
-        } else if !self.force.is_empty() {
-            let keyframed = KeyframedField::new(&self.force)?.eased(self.wind.ease);
+        } else if !force.is_empty() {
+            let keyframed = KeyframedField::new(force)?.eased(self.wind.ease);
             bound("force".to_owned(), keyframed.strongest());
             winds.push(Arc::new(keyframed));
         }

@@ -11,7 +11,7 @@ use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
-use crate::scene::{FieldSettings, HairSource, Scene};
+use crate::scene::{HairSource, Scene, given_as};
 use crate::solve::{Solved, WishFile};
 use crate::told::Told;
 use crate::watch::Watch;
@@ -53,16 +53,17 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let wishes = &file.wishes;
     let in_file = |refused: SettingError| Error::from(file.refusal(refused));
     let free = wishes.unknowns(scene.field.force.len());
-    let (force, unknowns) = free.of(&scene.field.force, scene.motion.frames).map_err(in_file)?;
-    scene.field.force = force;
+    let given = scene.field.as_given();
+    let (force, unknowns) = free.of(&given, scene.motion.frames).map_err(in_file)?;
+    scene.field.force = given_as(&scene.field.force, &given, &force);
     let shown = shown(file, strands, &scene)?;
     let built = super::build(scene, shown, watch)?;
     super::present(&built, watch);
     let named = file.about(&built)?;
     let (names, list): (Vec<String>, Vec<Wish>) = named.into_iter().map(|named| (named.name, named.wish)).unzip();
     let last = list.iter().map(|wish| wish.frame).max().unwrap_or(0);
-    let FieldSettings { force, wind, .. } = &built.scene.field;
-    let (unknowns, held) = free.within_reach(force, wind.ease, &unknowns, last).map_err(in_file)?;
+    let ease = built.scene.field.wind.ease;
+    let (unknowns, held) = free.within_reach(built.forces.intervals(), ease, &unknowns, last).map_err(in_file)?;
     // Nobody has asked for those that are free because nothing is said.
     let said = held.into_iter().filter(|_| wishes.unknowns.is_some());
     super::advise(said.map(Advice::new), watch);
@@ -79,7 +80,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
         let report = searched(Solver::new(problem).map_err(refused)?, &search, watch)?;
         seconds += begun.elapsed().as_secs_f64();
         let mut scene = built.scene.clone();
-        scene.accept(&report.answer);
+        scene.accept(&report.answer, built);
         Ok((scene, report))
     };
     let (mut scene, mut report) = answer(&built, list.clone(), watch)?;

@@ -1,5 +1,6 @@
 //! One setting as a field.
 
+mod amounts;
 mod values;
 
 use eframe::egui::{self, Response, Ui};
@@ -15,6 +16,7 @@ use crate::command::Command;
 use crate::dialog::{Chooser, Dialog, Purpose, as_folder};
 use crate::document::Phase;
 use crate::settings::{Kind, Row, value_at};
+use amounts::Taken;
 pub use values::number_of;
 use values::{finite, rgb_of, rgb_value, table};
 
@@ -84,6 +86,8 @@ pub struct Field<'a> {
     pub value: Option<&'a Value>,
     /// The title of its group, for who does not see it.
     pub group: &'a str,
+    /// What it comes to in its own unit, where it is given in one of the world.
+    pub comes_to: Option<String>,
     /// Whether it is to blame for an error.
     pub blamed: bool,
     /// All settings of the scene.
@@ -96,7 +100,8 @@ impl Field<'_> {
     /// Draws it.
     pub fn ui(&self, ui: &mut Ui, commands: &mut Commands) {
         let Row { label, unit, kind, open, help, .. } = self.setting;
-        let help = format!("{help}{}\n\n{}", range_text(*kind, unit), self.key);
+        let comes_to = self.comes_to.as_ref().map(|told| format!("\nNow {told}.")).unwrap_or_default();
+        let help = format!("{help}{}{comes_to}\n\n{}", range_text(*kind, unit), self.key);
         row(ui, label, &help, self.blamed, |ui| match (open, self.value) {
             (Some(what), None) => self.left_open(ui, what, commands),
             (open, value) => {
@@ -184,23 +189,12 @@ impl Field<'_> {
             ),
             Kind::Colour { linear } => self.colour(ui, value, linear, commands),
             Kind::HairColour => self.hair_colour(ui, value, commands),
-            Kind::Profile { most, step } => self.profile(ui, value, most, step, commands),
-            Kind::NumberOr { word, most, step } => {
-                let is_word = value.and_then(Value::as_str).is_some();
-                if ui.selectable_label(is_word, word).clicked() {
-                    let value = if is_word { Value::Float(100.0) } else { Value::String(word.to_owned()) };
-                    self.set(commands, Some(value), Phase::Done);
-                }
-                if !is_word {
-                    let mut number = value.and_then(number_of).unwrap_or_default();
-                    let field = Number { range: 0.0..=most, step, unit, ..Number::of(&self.key) };
-                    let response = name(field.ui(ui, &mut number, commands), self);
-                    self.sent(&response, commands, Value::Float(number));
-                }
-            }
+            Kind::Profile { units, most, step } => self.profile(ui, value, Taken { units, most, step }, commands),
+            Kind::Amount { units, most, step } => self.amount(ui, value, Taken { units, most, step }, commands),
             Kind::Ellipsoid => self.ellipsoid(ui, value, commands),
             Kind::File(endings) => self.file(ui, value, endings, commands),
-            Kind::Text => {
+            // Of intervals, which have fields of their own.
+            Kind::Text | Kind::Quantity { .. } => {
                 self.text(ui, value.and_then(Value::as_str).unwrap_or_default().to_owned(), commands, |text| {
                     Ok(Value::String(text.to_owned()))
                 })
@@ -339,44 +333,6 @@ impl Field<'_> {
                 self.set(commands, Some(table([("rgb", rgb)])), Phase::Dragging);
             }
         }
-    }
-
-    fn profile(&self, ui: &mut Ui, value: Option<&Value>, most: f64, step: f64, commands: &mut Commands) {
-        let mut numbers: Vec<f64> = match value {
-            Some(Value::Array(values)) => values.iter().filter_map(number_of).collect(),
-            other => other.and_then(number_of).into_iter().collect(),
-        };
-        let wrap = |numbers: &[f64]| match numbers {
-            [one] => Value::Float(*one),
-            all => all.iter().map(|number| Value::Float(*number)).collect::<Vec<_>>().into(),
-        };
-        let last = numbers.len().saturating_sub(1);
-        let unit = self.unit_beside(ui, 50.0 + 47.0 * numbers.len() as f32);
-        side_by_side(ui, 44.0, |ui| {
-            for i in 0..numbers.len() {
-                let place = match (i, last) {
-                    (_, 0) => "from root to tip",
-                    (0, _) => "at the root",
-                    (i, last) if i == last => "at the tip",
-                    _ => "on the way",
-                };
-                let step = step.max(numbers[i].abs() * 0.005);
-                let what = format!("{}, {place}", self.key);
-                let field = Number { range: 0.0..=most, step, ..Number::of(&what) };
-                let response = field.ui(ui, &mut numbers[i], commands).hint(place);
-                let response = response.accessible_name(format!("{} {}: {place}", self.group, self.setting.label));
-                self.sent(&response, commands, wrap(&numbers));
-            }
-            unit.into_iter().for_each(|(unit, _)| drop(ui.label(unit)));
-            if numbers.len() < 6 && ui.small_button("+").hint("One number more, toward the tip.").clicked() {
-                numbers.extend(numbers.last().copied());
-                self.set(commands, Some(wrap(&numbers)), Phase::Done);
-            }
-            if numbers.len() > 1 && ui.small_button("-").hint("One number less.").clicked() {
-                numbers.pop();
-                self.set(commands, Some(wrap(&numbers)), Phase::Done);
-            }
-        });
     }
 
     fn ellipsoid(&self, ui: &mut Ui, value: Option<&Value>, commands: &mut Commands) {

@@ -5,6 +5,7 @@ mod many;
 
 use eframe::egui::{self, Stroke, Ui};
 use glam::Vec3;
+use nabiki_scene::scene::ForceSettings;
 use nabiki_scene::told::Swing;
 
 use super::fields::{row_of, send, side_by_side};
@@ -12,6 +13,7 @@ use super::hands::Hands;
 use super::number::Number;
 use super::{Commands, theme};
 use crate::command::Command;
+use crate::document::Phase;
 use crate::session::Session;
 use crate::timeline;
 use dial::{Seen, dial};
@@ -29,18 +31,18 @@ const AXES: &str =
 /// Draws them into so much height, or more where that is too little.
 pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) {
     let Some(document) = session.document() else { return };
-    let keys = &document.scene().field.force;
+    let (keys, strengths) = (&document.scene().field.force, session.strengths());
     let top = ui.cursor().top();
     ui.spacing_mut().item_spacing.y = 3.0;
     let vectors: Vec<Vec3> = match session.chosen() {
         [] => return none(ui, keys.len()),
         [j] => {
             one(ui, session, *j, commands);
-            vec![keys[*j].vector]
+            vec![strengths[*j].vector]
         }
         chosen => {
-            many::ui(ui, keys, chosen, commands);
-            chosen.iter().map(|&j| keys[j].vector).collect()
+            many::ui(ui, keys, &strengths, chosen, commands);
+            chosen.iter().map(|&j| strengths[j].vector).collect()
         }
     };
     let left = height - (ui.cursor().top() - top) - 6.0;
@@ -48,7 +50,7 @@ pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) 
         let side = ((ui.available_width() - 8.0) / 2.0).min(left).clamp(56.0, 100.0);
         for seen in [Seen::FromHerRight, Seen::FromAbove] {
             let dragged = dial(ui, side, seen, session.chosen(), &vectors, commands);
-            commands.extend(dragged.map(|way| many::pointed(keys, session.chosen(), seen, way)));
+            commands.extend(dragged.map(|way| many::pointed(keys, &strengths, session.chosen(), seen, way)));
         }
     });
 }
@@ -86,12 +88,28 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
                 underline(ui, &response, axis);
                 let response = response.accessible_name(&what);
                 changed[axis] = number as f32;
-                send(&response, commands, |phase| Command::Vector { interval: j, vector: changed, phase });
+                send(&response, commands, |phase| directed(keys, j, changed, phase));
             }
         });
     });
+    if let Some(speed) = keys[j].speed {
+        row_of(ui, NAMES, "Speed", "How fast the air goes; its direction stays.", false, |ui| {
+            let mut number = f64::from(speed.number);
+            ui.spacing_mut().interact_size.x = 64.0;
+            let what = "Speed of the interval";
+            let field = Number { range: 0.0..=MOST, step: 0.2, decimals: 1, unit: speed.unit(), ..Number::of(what) };
+            let response = field.ui(ui, &mut number, commands).accessible_name(what);
+            send(&response, commands, |phase| {
+                let mut keys = keys.clone();
+                keys[j].speed = Some(speed.with(number as f32));
+                Command::Intervals { name: "Speed of an interval", keys, chosen: None, phase }
+            });
+        });
+    }
+    // That of a speed is what it comes to; another one takes the place of the speed.
+    let strength = session.strengths()[j].vector;
     row_of(ui, NAMES, "Strength", "|F|: its direction stays.", false, |ui| {
-        let mut length = f64::from(vector.length());
+        let mut length = f64::from(strength.length());
         ui.spacing_mut().interact_size.x = 64.0;
         let what = "Strength of the interval";
         let field = Number { range: 0.0..=MOST, step: 0.5, decimals: 1, ..Number::of(what) };
@@ -119,6 +137,16 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
     }
 }
 
+/// Another vector of an interval: of one with a speed another direction.
+fn directed(keys: &[ForceSettings], j: usize, vector: Vec3, phase: Phase) -> Command {
+    if keys[j].speed.is_none() {
+        return Command::Vector { interval: j, vector, phase };
+    }
+    let mut keys = keys.to_vec();
+    keys[j].vector = vector;
+    Command::Intervals { name: "Direction of intervals", keys, chosen: None, phase }
+}
+
 /// The colour of its axis below a field.
 fn underline(ui: &Ui, response: &egui::Response, axis: usize) {
     let rect = response.rect;
@@ -139,4 +167,13 @@ fn none(ui: &mut Ui, intervals: usize) {
 fn rounded(vector: Vec3) -> Vec3 {
     // Calm has no sign.
     (10.0 * vector).round() / 10.0 + Vec3::ZERO
+}
+
+/// The vector of an interval whose force a hand has turned to this: with a speed it is a direction.
+fn turned(key: &ForceSettings, force: Vec3) -> Vec3 {
+    match (key.speed, force.try_normalize()) {
+        (None, _) => rounded(force),
+        (Some(_), None) => key.vector,
+        (Some(_), Some(direction)) => (1000.0 * direction).round() / 1000.0 + Vec3::ZERO,
+    }
 }

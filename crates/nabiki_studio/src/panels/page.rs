@@ -226,7 +226,8 @@ impl Panel<'_> {
             let (settings, folder) = (self.session.settings(), self.folder);
             let found = self.session.revealed().filter(|(found, _)| *found == key);
             let top = ui.cursor().min;
-            Field { setting, key, value, group: group.title, blamed, settings, folder }.ui(ui, commands);
+            let comes_to = self.session.take().and_then(|take| take.built.comes_to(&key));
+            Field { setting, key, value, group: group.title, comes_to, blamed, settings, folder }.ui(ui, commands);
             if let Some((_, goes)) = found {
                 let rect = egui::Rect::from_min_max(top, egui::pos2(ui.max_rect().right(), ui.min_rect().bottom()));
                 point_out(ui, rect, goes);

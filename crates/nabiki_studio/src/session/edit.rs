@@ -1,8 +1,8 @@
 //! What changes the scene.
 
-use nabiki::field::{Ease, Keyframe};
+use nabiki::field::Ease;
 use nabiki_scene::Scene;
-use nabiki_scene::scene::Output;
+use nabiki_scene::scene::{ForceSettings, Output};
 
 use super::{Session, taken};
 use crate::actions::Action;
@@ -58,13 +58,15 @@ impl Session {
             Command::Vector { interval, vector, phase } => {
                 let name = format!("Vector of interval {}", interval + 1);
                 self.change(&name, phase, |scene| {
-                    scene.field.force.get_mut(interval).into_iter().for_each(|key| key.vector = vector);
+                    let key = scene.field.force.get_mut(interval);
+                    key.into_iter().for_each(|key| (key.vector, key.speed) = (vector, None));
                 });
             }
             // It was undone, or something else was done, in the picture in which more was found: nobody wants that any more.
             Command::Pulled { name, phase: Phase::After, .. } if !self.is_last_step(name) => {}
             Command::Pulled { name, answer, interval, phase } => {
-                self.change(name, phase, |scene| scene.accept(&answer));
+                let Some(take) = self.take.clone() else { return };
+                self.change(name, phase, |scene| scene.accept(&answer, &take.built));
                 let before = std::mem::replace(&mut self.chosen, vec![interval]);
                 self.chosen_before = match phase {
                     Phase::Dragging => Some(self.chosen_before.take().unwrap_or(before)),
@@ -199,7 +201,7 @@ impl Session {
         }
     }
 
-    fn edit_intervals(&mut self, name: &str, keys: Vec<Keyframe>, chosen: Vec<usize>) {
+    fn edit_intervals(&mut self, name: &str, keys: Vec<ForceSettings>, chosen: Vec<usize>) {
         self.change(name, Phase::Done, |scene| set_intervals(scene, keys));
         self.chosen = chosen;
     }
@@ -241,7 +243,7 @@ fn shorten_sheet(scene: &mut Scene, before: &Scene) -> Shortened {
 }
 
 /// Puts intervals into a scene. Without any there is nothing to ease and nothing to make gusty.
-fn set_intervals(scene: &mut Scene, keys: Vec<Keyframe>) {
+fn set_intervals(scene: &mut Scene, keys: Vec<ForceSettings>) {
     scene.field.force = keys;
     if scene.field.force.is_empty() {
         scene.field.wind.ease = Ease::Stepped;

@@ -95,10 +95,11 @@ fn each_ease_has_its_turn() {
 #[test]
 fn a_pull_has_its_own_interval_chosen_and_giving_it_up_what_was_chosen_before() {
     let mut session = Place::new().session();
+    session.wait();
     session.apply(Command::Choose(vec![1]));
     let pull = |session: &mut Session, phase| {
-        let force = session.document().unwrap().scene().field.force.clone();
-        let answer = nabiki::solve::Answer { keyframes: force, gust: None, stiffness: None, settle: None };
+        let keyframes = session.document().unwrap().scene().field.as_given();
+        let answer = nabiki::solve::Answer { keyframes, gust: None, stiffness: None, settle: None };
         session.apply(Command::Pulled { name: "Pull the hair", answer: Box::new(answer), interval: 0, phase });
     };
     pull(&mut session, crate::document::Phase::Dragging);
@@ -116,7 +117,8 @@ fn what_is_found_after_a_pull_was_undone_changes_nothing() {
     use crate::document::Phase;
 
     let mut session = Place::new().session();
-    let force = |session: &Session| session.document().unwrap().scene().field.force.clone();
+    session.wait();
+    let force = |session: &Session| session.document().unwrap().scene().field.as_given();
     let before = force(&session);
     let pull = |session: &mut Session, x: f32, phase: Phase| {
         let mut keyframes = force(session);

@@ -35,14 +35,24 @@ fn kind(table: &str, key: &str, found: &declared::Setting) -> Kind {
         declared::Kind::List(declared::Kind::Table(_)) => Kind::Envelope,
         declared::Kind::List(of) => Kind::List { whole: matches!(of, declared::Kind::Whole { .. }) },
         declared::Kind::Path => Kind::File(endings(table, key)),
-        declared::Kind::OneOf([declared::Kind::Number, declared::Kind::List(_)]) => Kind::Profile { most, step },
-        declared::Kind::OneOf([declared::Kind::Number, declared::Kind::Words([word])]) => {
-            Kind::NumberOr { word: word.word, most, step }
+        declared::Kind::OneOf([number, declared::Kind::List(_)]) => Kind::Profile { units: units(number), most, step },
+        declared::Kind::OneOf([declared::Kind::Number, _]) if !units(&found.kind).is_empty() => {
+            Kind::Amount { units: units(&found.kind), most, step }
         }
+        declared::Kind::Quantity(units) => Kind::Quantity { units },
         declared::Kind::OneOf([declared::Kind::Words(_), declared::Kind::Number]) => Kind::Unit,
         declared::Kind::OneOf([declared::Kind::Words(_), declared::Kind::Table(_)]) => Kind::Ellipsoid,
         declared::Kind::OneOf(_) => Kind::HairColour,
         declared::Kind::Text | declared::Kind::Table(_) => Kind::Text,
+    }
+}
+
+/// The units of the world that a number of this kind may be given in.
+fn units(kind: &declared::Kind) -> &'static [&'static str] {
+    match kind {
+        declared::Kind::Quantity(units) => units,
+        declared::Kind::OneOf(kinds) => kinds.iter().map(units).find(|units| !units.is_empty()).unwrap_or_default(),
+        _ => &[],
     }
 }
 

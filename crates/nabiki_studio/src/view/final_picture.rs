@@ -264,7 +264,7 @@ mod tests {
         let mut scene =
             Scene::parse(&format!("{text}[[force]]\nthrough = 6\nvector = [1, 0, 0]\n"), "a.toml".as_ref(), &[])
                 .unwrap();
-        scene.field.force = vec![Keyframe { through: 6, vector }];
+        scene.field.force = vec![Keyframe { through: 6, vector }.into()];
         let picture = scene.picture.clone();
         let built = Arc::new(scene.build(Shown::First(20)).unwrap());
         let view = Orbit::new(&picture.camera, [64, 48], &Bounds::default()).view([64, 48], Vec3::ZERO);

@@ -68,7 +68,7 @@ impl Held {
     /// How far the hair at this place (head space, cm) of a take is from the hand, in one line, and what stops it once that is known and
     /// shown.
     pub fn says(&self, hair: Vec3, take: &Take) -> Option<String> {
-        let is_shown = |pulled: &Pulled| take.built.scene.field.force == pulled.answer.keyframes;
+        let is_shown = |pulled: &Pulled| take.built.forces.intervals() == pulled.answer.keyframes;
         let searching = self.followed.as_ref().is_none_or(|pulled| !pulled.ended || !is_shown(pulled));
         let stop = self.followed.as_ref().and_then(|pulled| pulled.stop.as_ref());
         short(self.goal().distance(hair), 0.0, searching, stop)

@@ -106,7 +106,7 @@ impl View {
             touches.push(Touch::Refused("Frame 0 is the hair at rest: go to a later frame to pull it.".to_owned()));
         } else if nailing {
             self.nail(lock);
-        } else if shown.take.built.scene.field.force != shown.force {
+        } else if shown.take.built.forces.intervals() != shown.force {
             touches.push(Touch::Refused("The motion is still being computed: pull again in a moment.".to_owned()));
         } else {
             let middle = lock.middle(points, strands);

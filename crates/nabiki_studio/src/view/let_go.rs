@@ -180,7 +180,7 @@ impl LetGo {
         let off = |lock: &Lock, place: Vec3| lock.middle(take.points(lock.frame), take.strands()).distance(place);
         let of_nails = self.nails.iter().filter(|(nail, _)| is_there(nail)).map(|(nail, place)| off(nail, *place));
         // What was found is not shown yet: the hair is on its way.
-        let searching = self.is_looking() || take.built.scene.field.force != self.force;
+        let searching = self.is_looking() || take.built.forces.intervals() != self.force;
         short(off(&self.lock, self.goal), of_nails.fold(0.0, f32::max), searching, self.stop.as_ref())
     }
 }

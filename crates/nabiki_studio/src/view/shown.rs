@@ -20,7 +20,7 @@ pub struct Shown<'a> {
     pub take: &'a Take,
     /// The look as it is now: it may be newer than the one the take was built from.
     pub picture: &'a Picture,
-    /// The intervals as they are now, newer than the take while it is simulated.
+    /// The intervals by their strength as they are now, newer than the take while it is simulated.
     pub force: &'a [Keyframe],
     /// The frame looked at, at most the take's last.
     pub frame: u32,

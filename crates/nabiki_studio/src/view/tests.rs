@@ -94,7 +94,7 @@ impl Window {
         for touch in touches {
             if let Touch::Pulled { answer, .. } = touch {
                 let mut scene = self.take.built.scene.clone();
-                scene.accept(&answer);
+                scene.accept(&answer, &self.take.built);
                 self.take = moved(scene);
             }
         }
@@ -131,7 +131,7 @@ fn shown(take: &Take, frame: u32) -> Shown<'_> {
         scene: 1,
         take,
         picture: &scene.picture,
-        force: &scene.field.force,
+        force: take.built.forces.intervals(),
         frame,
         playing: false,
         selected_interval: None,
@@ -249,7 +249,7 @@ fn a_pull_makes_wind_that_release_accepts_and_escape_undoes() {
         let Some(Touch::Pulled { answer, interval, phase: Phase::Dragging, .. }) = touches.pop() else {
             panic!("{touches:?}")
         };
-        assert_ne!(answer.keyframes, window.take.built.scene.field.force);
+        assert_ne!(answer.keyframes, window.take.built.forces.intervals());
         let felt = window.view.marks().felt.expect("the timeline shows the frames that follow");
         assert!(felt.contains(&15) && answer.keyframes[interval].through >= 15, "{felt:?} {answer:?}");
         let touches = if ends { window.run(&press(to, false)) } else { window.run(&[key(Key::Escape, true)]) };

@@ -30,7 +30,7 @@ impl HeadFrame {
         let [now, before, earlier] = [input.pose, input.before[0], input.before[1]].map(exact);
         Self {
             turn: if input.pose.rotation == input.before[0].rotation { None } else { turn(before.1, now.1) },
-            weight: weight::on_head(&input.pose, f64::from(form.weight())),
+            weight: weight::on_head(&input.pose, f64::from(form.gravity)),
             way: (input.before != [input.pose; 2]).then(|| HeadWay::new(now, before, earlier)),
         }
     }

@@ -93,7 +93,7 @@ impl Packed {
             kept_from: Vec::new(),
             shapes: 0,
             rest: Vec::new(),
-            weight_at_rest: weight::on_head(&free.rest_pose, f64::from(free.form.weight())).as_vec3().to_array(),
+            weight_at_rest: weight::on_head(&free.rest_pose, f64::from(free.form.gravity)).as_vec3().to_array(),
             most_drag: free.form.drag.largest(),
             center: 0.5 * (low + high),
             radius: 0.5 * low.distance(high) + 2.0 * longest,

@@ -91,7 +91,7 @@ pub(in crate::dynamics) fn free_segments(
     let length: f64 = shapes[held..].iter().map(|shape| shape.length).sum();
     let push = push(dynamics, length);
     let own = free.own(strand);
-    let rest_weight = push * weight::on_head(&free.rest_pose, f64::from(form.weight()));
+    let rest_weight = push * weight::on_head(&free.rest_pose, f64::from(form.gravity));
     let still = |i: usize| FreeSegment {
         shape: shapes[i],
         rest: (points[i + 1] - points[i]).normalize(),
@@ -114,7 +114,7 @@ pub(in crate::dynamics) fn free_segments(
         beyond += mass;
         carries += weight::moment(points[i + 1] - points[i], beyond * rest_weight);
         let middle = length * shape.middle;
-        let held = form.hold.at(shape.middle) + weight::held_up(&free.rest_pose, form.weight().into(), still(i).rest);
+        let held = form.hold.at(shape.middle) + weight::held_up(&free.rest_pose, form.gravity.into(), still(i).rest);
         segments[i] = FreeSegment {
             push,
             lightness: 1.0 / mass,

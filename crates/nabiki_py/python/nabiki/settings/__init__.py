@@ -9,9 +9,9 @@ from .. import _nabiki
 from ._table import Table, Tables
 from .hair import Clumps, Comb, Curl, Cut, Fringe, HairSettings, Hairline, Length, Lift, Parting, Ponytail, Stiffness, Style, Variation, Volume
 from .head import BodySettings, HeadSettings, MotionSource
-from .motion import Contact, Disturbance, FreeForm, Motion, NeighbourForces, PseudoForce, Tie
+from .motion import Contact, Disturbance, FreeSettings, Motion, NeighbourForces, PseudoForce, Tie
 from .picture import Background, Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
-from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, Gust, Keyframe, Point, Turbulence, Vortex, Wind
+from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, ForceSettings, Gust, Point, Turbulence, Vortex, Wind
 
 
 class SceneTables(TypedDict, total=False):
@@ -19,7 +19,7 @@ class SceneTables(TypedDict, total=False):
 
     picture: Picture | Mapping[str, Any] | None
     output: Output | Mapping[str, Any] | None
-    force: Iterable[Keyframe | Mapping[str, Any]] | None
+    force: Iterable[ForceSettings | Mapping[str, Any]] | None
     wind: Wind | Mapping[str, Any] | None
     gust: Gust | Mapping[str, Any] | None
     body_wind: BodyWind | Mapping[str, Any] | None
@@ -29,7 +29,7 @@ class SceneTables(TypedDict, total=False):
     vortex: Iterable[Vortex | Mapping[str, Any]] | None
     fan: Iterable[Fan | Mapping[str, Any]] | None
     motion: Motion | Mapping[str, Any] | None
-    free: FreeForm | Mapping[str, Any] | None
+    free: FreeSettings | Mapping[str, Any] | None
     contact: Contact | Mapping[str, Any] | None
     neighbours: NeighbourForces | Mapping[str, Any] | None
     pseudo_force: PseudoForce | Mapping[str, Any] | None
@@ -70,12 +70,12 @@ class SceneSettings(_nabiki.Scene):
         self['output'] = value
 
     @property
-    def force(self) -> Tables[Keyframe]:
+    def force(self) -> Tables[ForceSettings]:
         """One interval of the wind: `vector` drives every frame after the interval before it, up to `through`."""
-        return Tables(self, 'force', Keyframe)
+        return Tables(self, 'force', ForceSettings)
 
     @force.setter
-    def force(self, value: Iterable[Keyframe | Mapping[str, Any]] | None) -> None:
+    def force(self, value: Iterable[ForceSettings | Mapping[str, Any]] | None) -> None:
         self['force'] = value
 
     @property
@@ -175,12 +175,14 @@ class SceneSettings(_nabiki.Scene):
         self['motion'] = value
 
     @property
-    def free(self) -> FreeForm:
-        """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F."""
-        return FreeForm(self, 'free')
+    def free(self) -> FreeSettings:
+        """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F, or in one of
+        the world.
+        """
+        return FreeSettings(self, 'free')
 
     @free.setter
-    def free(self, value: FreeForm | Mapping[str, Any] | None) -> None:
+    def free(self, value: FreeSettings | Mapping[str, Any] | None) -> None:
         self['free'] = value
 
     @property

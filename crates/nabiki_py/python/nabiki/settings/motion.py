@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from ._table import Arrays, File, Matrices, Numbers, Table, Tables
 
-__all__ = ["Contact", "Disturbance", "FreeForm", "Motion", "NeighbourForces", "PseudoForce", "Tie"]
+__all__ = ["Contact", "Disturbance", "FreeSettings", "Motion", "NeighbourForces", "PseudoForce", "Tie"]
 
 
 class Motion(Table):
@@ -38,7 +38,7 @@ class Motion(Table):
     @property
     def frame_rate(self) -> float:
         """Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames: of
-        its settings only `gravity = "earth"` depends on this. Number above 0 (a second); default: 24.
+        its settings only those in units of the world depend on this. Number above 0 (a second); default: 24.
         """
         value: float = self._get('frame_rate')
         return value
@@ -119,55 +119,58 @@ class Motion(Table):
         self._set('force_space', value)
 
 
-class FreeForm(Table):
-    """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F."""
+class FreeSettings(Table):
+    """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F, or in one of the
+    world.
+    """
 
     __slots__ = ()
 
     @property
-    def stiffness(self) -> float | tuple[float, ...]:
-        """How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. One number, or a
-        list from root to tip. K of docs/motion-forms.md: EI = 3/8 A L K d^2, with d `hair.segment_length`. Hair bends
-        alike however finely it is cut. Number, 0 to 1000000000, or list of numbers, each 0 to 1000000000; default:
-        [12000, 1000].
+    def stiffness(self) -> float | str | tuple[float | str, ...]:
+        """How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. "4.5 cm" is hair
+        that bends under its own `gravity` within that length, as real hair does. One, or a list from root to tip. K
+        of docs/motion-forms.md: EI = 3/8 A L K d^2, with d `hair.segment_length`. Hair bends alike however finely it
+        is cut. Number, 0 to 1000000000, or "... cm", or a list of them; default: [12000, 1000].
         """
-        value: float | tuple[float, ...] = self._get('stiffness')
+        value: float | str | tuple[float | str, ...] = self._get('stiffness')
         return value
 
     @stiffness.setter
-    def stiffness(self, value: float | Numbers | None) -> None:
+    def stiffness(self, value: float | str | Numbers | Sequence[float | str] | None) -> None:
         self._set('stiffness', value)
 
     @property
-    def hold(self) -> float | tuple[float, ...]:
-        """How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H:
-        turns segments toward their rest direction on the head. Against a force F, limp hair settles along F + H r.
-        Number, 0 to 1000000000, or list of numbers, each 0 to 1000000000; default: 30.
+    def hold(self) -> float | str | tuple[float | str, ...]:
+        """How firmly hair keeps its place on the head, as with hair spray. "0.3 g" pulls with so much of its weight on
+        the earth. One number, or a list from root to tip. H: turns segments toward their rest direction on the head.
+        Against a force F, limp hair settles along F + H r. Number, 0 to 1000000000, or "... g", or a list of them;
+        default: 30.
         """
-        value: float | tuple[float, ...] = self._get('hold')
+        value: float | str | tuple[float | str, ...] = self._get('hold')
         return value
 
     @hold.setter
-    def hold(self, value: float | Numbers | None) -> None:
+    def hold(self, value: float | str | Numbers | Sequence[float | str] | None) -> None:
         self._set('hold', value)
 
     @property
-    def settle(self) -> float | tuple[float, ...]:
-        """Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. One
-        number, or a list from root to tip, interpolated in frames: next to a 0 hair hardly swings. Number of at least
-        0, or list of numbers, each of at least 0 (frames); default: 20.
+    def settle(self) -> float | str | tuple[float | str, ...]:
+        """Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air.
+        "0.8 s" are as many as pass in it. One number, or a list from root to tip, interpolated in frames: next to a 0
+        hair hardly swings. Number of at least 0 or "... s" or a list of them (frames); default: 20.
         """
-        value: float | tuple[float, ...] = self._get('settle')
+        value: float | str | tuple[float | str, ...] = self._get('settle')
         return value
 
     @settle.setter
-    def settle(self, value: float | Numbers | None) -> None:
+    def settle(self, value: float | str | Numbers | Sequence[float | str] | None) -> None:
         self._set('settle', value)
 
     @property
     def gravity(self) -> float | str:
-        """How fast moved hair falls. A strength, or "earth" for 981 cm/s^2 at `motion.frame_rate`. Hair at rest does not
-        sag. Number, 0 to 1000000000, or "earth"; default: 100.
+        """How fast moved hair falls. A strength, or "1 g" for that of the earth, 981 cm/s^2 at `motion.frame_rate`;
+        "earth" is the same. Hair at rest does not sag. Number, 0 to 1000000000, or "... g" or "earth"; default: 100.
         """
         value: float | str = self._get('gravity')
         return value

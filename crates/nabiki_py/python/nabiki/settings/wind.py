@@ -13,8 +13,8 @@ __all__ = [
     "Falloff",
     "Fan",
     "Flow",
+    "ForceSettings",
     "Gust",
-    "Keyframe",
     "Point",
     "Turbulence",
     "Vortex",
@@ -22,7 +22,7 @@ __all__ = [
 ]
 
 
-class Keyframe(Table):
+class ForceSettings(Table):
     """One interval of the wind: `vector` drives every frame after the interval before it, up to `through`."""
 
     __slots__ = ()
@@ -39,8 +39,8 @@ class Keyframe(Table):
 
     @property
     def vector(self) -> tuple[float, float, float]:
-        """Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair). 3 numbers; must
-        be given.
+        """Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair). With a `speed`,
+        the direction alone. 3 numbers; must be given.
         """
         value: tuple[float, float, float] = self._get('vector')
         return value
@@ -48,6 +48,19 @@ class Keyframe(Table):
     @vector.setter
     def vector(self, value: Numbers | None) -> None:
         self._set('vector', value)
+
+    @property
+    def speed(self) -> str | None:
+        """How fast the air goes that carries the hair, in the free form: "20 km/h", "5 m/s" or "300 cm/s". The strength
+        is then what carries free hair so fast. "... cm/s", "... m/s" or "... km/h"; default: the length of vector is
+        the strength.
+        """
+        value: str | None = self._get('speed')
+        return value
+
+    @speed.setter
+    def speed(self, value: str | None) -> None:
+        self._set('speed', value)
 
 
 class Wind(Table):

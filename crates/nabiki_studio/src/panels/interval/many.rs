@@ -3,9 +3,10 @@
 use eframe::egui::{Response, Ui, Vec2};
 use glam::Vec3;
 use nabiki::field::Keyframe;
+use nabiki_scene::scene::ForceSettings;
 
 use super::dial::Seen;
-use super::{AXES, MOST, NAMES, rounded, underline};
+use super::{AXES, MOST, NAMES, directed, rounded, turned, underline};
 use crate::command::Command;
 use crate::document::Phase;
 use crate::panels::fields::{row_of, send, side_by_side};
@@ -37,8 +38,8 @@ impl Shared {
     }
 }
 
-/// Draws fields for the chosen intervals.
-pub fn ui(ui: &mut Ui, keys: &[Keyframe], chosen: &[usize], commands: &mut Commands) {
+/// Draws fields for the chosen intervals, which are so strong.
+pub fn ui(ui: &mut Ui, keys: &[ForceSettings], strengths: &[Keyframe], chosen: &[usize], commands: &mut Commands) {
     let (first, last) = (chosen[0], chosen[chosen.len() - 1]);
     ui.label(format!("{} of {} intervals", chosen.len(), keys.len()));
     let lengths = chosen.iter().map(|&j| f64::from(length(keys, j)));
@@ -70,10 +71,9 @@ pub fn ui(ui: &mut Ui, keys: &[Keyframe], chosen: &[usize], commands: &mut Comma
                 underline(ui, &response, axis);
                 let response = response.accessible_name(&what);
                 send_keys(&response, commands, "Force of intervals", || {
-                    changed(keys, chosen, |mut vector| {
-                        let to = shared.applied(f64::from(vector[axis]), &response, number);
-                        vector[axis] = to.clamp(-MOST, MOST) as f32;
-                        vector
+                    changed(keys, chosen, |_, key| {
+                        let to = shared.applied(f64::from(key.vector[axis]), &response, number);
+                        key.vector[axis] = to.clamp(-MOST, MOST) as f32;
                     })
                 });
             }
@@ -81,7 +81,7 @@ pub fn ui(ui: &mut Ui, keys: &[Keyframe], chosen: &[usize], commands: &mut Comma
     });
     let help = "|F|: directions stay. Typed, it is that of all; dragged, all grow by the same part.";
     row_of(ui, NAMES, "Strength", help, false, |ui| {
-        let shared = Shared::of(chosen.iter().map(|&j| f64::from(keys[j].vector.length())));
+        let shared = Shared::of(chosen.iter().map(|&j| f64::from(strengths[j].vector.length())));
         let mut number = shared.number;
         ui.spacing_mut().interact_size.x = 64.0;
         let what = "Strength of the intervals";
@@ -89,44 +89,54 @@ pub fn ui(ui: &mut Ui, keys: &[Keyframe], chosen: &[usize], commands: &mut Comma
         let response = field.ui(ui, &mut number, commands).accessible_name(what);
         let is_dragged = response.dragged() || response.drag_stopped();
         send_keys(&response, commands, "Strength of intervals", || {
-            changed(keys, chosen, |vector| match vector.try_normalize() {
-                // A tenth would lose what grows from nearly nothing.
-                Some(_) if is_dragged && shared.number > 0.0 => vector * (number / shared.number) as f32,
-                Some(direction) => rounded(direction * number as f32),
-                None if is_dragged => vector,
-                None => rounded(Vec3::NEG_X * number as f32),
+            changed(keys, chosen, |j, key| {
+                let vector = strengths[j].vector;
+                let times = (number / shared.number) as f32;
+                if let (Some(speed), true) = (key.speed, is_dragged && shared.number > 0.0) {
+                    key.speed = Some(speed.with(speed.number * times));
+                    return;
+                }
+                key.speed = None;
+                key.vector = match vector.try_normalize() {
+                    // A tenth would lose what grows from nearly nothing.
+                    Some(_) if is_dragged && shared.number > 0.0 => vector * times,
+                    Some(direction) => rounded(direction * number as f32),
+                    None if is_dragged => vector,
+                    None => rounded(Vec3::NEG_X * number as f32),
+                };
             })
         });
     });
 }
 
-fn length(keys: &[Keyframe], j: usize) -> u32 {
+fn length(keys: &[ForceSettings], j: usize) -> u32 {
     let frames = timeline::frames(keys, j);
     frames.end() - frames.start() + 1
 }
 
-fn send_keys(response: &Response, commands: &mut Commands, name: &'static str, keys: impl FnOnce() -> Vec<Keyframe>) {
+fn send_keys(
+    response: &Response,
+    commands: &mut Commands,
+    name: &'static str,
+    keys: impl FnOnce() -> Vec<ForceSettings>,
+) {
     send(response, commands, |phase| Command::Intervals { name, keys: keys(), chosen: None, phase });
 }
 
-fn changed(keys: &[Keyframe], chosen: &[usize], change: impl Fn(Vec3) -> Vec3) -> Vec<Keyframe> {
+fn changed(keys: &[ForceSettings], chosen: &[usize], change: impl Fn(usize, &mut ForceSettings)) -> Vec<ForceSettings> {
     let mut keys = keys.to_vec();
-    chosen
-        .iter()
-        .filter_map(|&j| Some((j, keys.get(j)?.vector)))
-        .collect::<Vec<_>>()
-        .into_iter()
-        .for_each(|(j, vector)| keys[j].vector = change(vector));
+    keys.iter_mut().enumerate().filter(|(j, _)| chosen.contains(j)).for_each(|(j, key)| change(j, key));
     keys
 }
 
 /// What a drag in a circle makes of the intervals chosen.
-pub fn pointed(keys: &[Keyframe], chosen: &[usize], seen: Seen, way: Vec2) -> Command {
+pub fn pointed(keys: &[ForceSettings], strengths: &[Keyframe], chosen: &[usize], seen: Seen, way: Vec2) -> Command {
     let phase = Phase::Dragging;
+    let vector = |j: usize, key: &ForceSettings| turned(key, seen.turned(strengths[j].vector, way, chosen));
     match chosen {
-        [j] => Command::Vector { interval: *j, vector: rounded(seen.turned(keys[*j].vector, way, chosen)), phase },
+        [j] => directed(keys, *j, vector(*j, &keys[*j]), phase),
         _ => {
-            let keys = changed(keys, chosen, |vector| rounded(seen.turned(vector, way, chosen)));
+            let keys = changed(keys, chosen, |j, key| key.vector = vector(j, key));
             Command::Intervals { name: "Direction of intervals", keys, chosen: None, phase }
         }
     }
@@ -141,8 +151,11 @@ mod tests {
     #[test]
     fn several_turn_to_the_hand_and_keep_their_strengths_in_the_plane_that_is_seen() {
         let keys = [Vec3::new(-3.0, 4.0, 7.0), Vec3::new(0.0, -10.0, 0.0), Vec3::ZERO];
-        let keys: Vec<Keyframe> = (1..).zip(keys).map(|(n, vector)| Keyframe { through: 10 * n, vector }).collect();
-        let Command::Intervals { keys: turned, .. } = pointed(&keys, &[0, 1], Seen::FromHerRight, vec2(9.0, 0.0))
+        let strengths: Vec<Keyframe> =
+            (1..).zip(keys).map(|(n, vector)| Keyframe { through: 10 * n, vector }).collect();
+        let keys: Vec<ForceSettings> = strengths.iter().copied().map(ForceSettings::from).collect();
+        let Command::Intervals { keys: turned, .. } =
+            pointed(&keys, &strengths, &[0, 1], Seen::FromHerRight, vec2(9.0, 0.0))
         else {
             panic!("not intervals")
         };
@@ -150,7 +163,7 @@ mod tests {
             turned.iter().map(|key| key.vector).collect::<Vec<_>>(),
             [Vec3::new(5.0, 0.0, 7.0), Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO]
         );
-        let Command::Vector { vector, .. } = pointed(&keys, &[0], Seen::FromAbove, vec2(9.0, 1.0)) else {
+        let Command::Vector { vector, .. } = pointed(&keys, &strengths, &[0], Seen::FromAbove, vec2(9.0, 1.0)) else {
             panic!("no vector")
         };
         assert_eq!(vector, Vec3::new(9.0, 4.0, 1.0));

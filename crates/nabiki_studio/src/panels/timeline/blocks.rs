@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align2, Color32, CursorIcon, Rect, Sense, Stroke, Ui, pos2, vec2};
 use glam::Vec3;
-use nabiki::field::Keyframe;
+use nabiki_scene::scene::ForceSettings;
 use nabiki_scene::told::Swing;
 
 use super::Scale;
@@ -25,9 +25,10 @@ pub fn ui(ui: &mut Ui, rect: Rect, scale: &Scale, session: &Session, commands: &
         ui.painter().text(rect.left_center() + vec2(8.0, 0.0), Align2::LEFT_CENTER, text, font(), theme::FAINT);
         return;
     }
-    let strongest = keys.iter().map(|key| key.vector.length()).fold(1e-6, f32::max);
-    for j in 0..keys.len() {
-        block(ui, rect, scale, session, keys, j, strongest, commands);
+    let strengths = session.strengths();
+    let strongest = strengths.iter().map(|key| key.vector.length()).fold(1e-6, f32::max);
+    for (j, strength) in strengths.iter().enumerate() {
+        block(ui, rect, scale, session, keys, j, strength.vector.length() / strongest, commands);
     }
     for j in 0..keys.len() {
         border(ui, rect, scale, keys, j, commands);
@@ -44,9 +45,9 @@ fn block(
     row: Rect,
     scale: &Scale,
     session: &Session,
-    keys: &[Keyframe],
+    keys: &[ForceSettings],
     j: usize,
-    strongest: f32,
+    of_strongest: f32,
     commands: &mut Commands,
 ) {
     let frames = timeline::frames(keys, j);
@@ -81,10 +82,10 @@ fn block(
     // What is seen of a block carries its words, wherever its ends are.
     let seen = rect.intersect(row);
     let middle = pos2(seen.left() + 26.0_f32.min(seen.width() / 2.0), rect.center().y);
-    arrow(&painter, middle, vector, 22.0 * (vector.length() / strongest).sqrt());
+    arrow(&painter, middle, vector, 22.0 * of_strongest.sqrt());
     if seen.width() > 92.0 {
         let x = seen.left() + 54.0;
-        painter.text(pos2(x, rect.top() + 17.0), Align2::LEFT_CENTER, strength(vector), font(), theme::TEXT);
+        painter.text(pos2(x, rect.top() + 17.0), Align2::LEFT_CENTER, strength(&keys[j]), font(), theme::TEXT);
         let lines = if seen.width() > 112.0 { 2 } else { 0 };
         let words = [format!("{} to {}", frames.start(), frames.end()), swing(session, j)];
         for (i, text) in words.into_iter().take(lines).enumerate() {
@@ -93,16 +94,20 @@ fn block(
         }
     }
     let [x, y, z] = vector.to_array();
+    let force = keys[j].speed.map_or("Force".to_owned(), |speed| format!("{speed} along"));
     response.hint(format!(
-        "Frames {} to {}\nForce {x}, {y}, {z}\n{}\n\nDrag to slide it, its borders to make it longer or shorter;\nwith Shift what comes after moves along.",
+        "Frames {} to {}\n{force} {x}, {y}, {z}\n{}\n\nDrag to slide it, its borders to make it longer or shorter;\nwith Shift what comes after moves along.",
         frames.start(),
         frames.end(),
         swings(session, j)
     ));
 }
 
-fn strength(vector: Vec3) -> String {
-    match vector.length() {
+fn strength(key: &ForceSettings) -> String {
+    if let Some(speed) = key.speed {
+        return speed.to_string();
+    }
+    match key.vector.length() {
         0.0 => "calm".to_owned(),
         length if length < 10.0 => format!("{length:.1}"),
         length => format!("{length:.0}"),
@@ -133,7 +138,7 @@ fn drag(
     response: &egui::Response,
     scale: &Scale,
     session: &Session,
-    keys: &[Keyframe],
+    keys: &[ForceSettings],
     j: usize,
     commands: &mut Commands,
 ) {
@@ -146,7 +151,7 @@ fn drag(
     }
     if let Some(pointer) = response.held_at()
         && let Some(start) = ui.input(|input| input.pointer.press_origin())
-        && let Some(from) = ui.data(|data| data.get_temp::<Vec<Keyframe>>(id))
+        && let Some(from) = ui.data(|data| data.get_temp::<Vec<ForceSettings>>(id))
     {
         let by = (scale.time(pointer.x) - scale.time(start.x)).round() as i64;
         let moving = if session.chosen().contains(&j) { session.chosen().to_vec() } else { vec![j] };
@@ -154,12 +159,12 @@ fn drag(
         commands.push(Command::Intervals { name: "Slide", keys, chosen: None, phase: Phase::Dragging });
     }
     if response.drag_stopped() {
-        ui.data_mut(|data| data.remove::<Vec<Keyframe>>(id));
+        ui.data_mut(|data| data.remove::<Vec<ForceSettings>>(id));
         commands.push(Command::EndDrag);
     }
 }
 
-fn border(ui: &mut Ui, row: Rect, scale: &Scale, keys: &[Keyframe], j: usize, commands: &mut Commands) {
+fn border(ui: &mut Ui, row: Rect, scale: &Scale, keys: &[ForceSettings], j: usize, commands: &mut Commands) {
     let x = scale.x(f64::from(keys[j].through) + 0.5);
     let grip = Rect::from_x_y_ranges(x - GRIP..=x + GRIP, row.y_range());
     if !grip.intersects(row) {

@@ -33,7 +33,7 @@ impl<'a> Common<'a> {
             frame: input.frame,
             gamma: dynamics.gamma(),
             head: HeadFrame::new(input, &free.form),
-            rest_weight: weight::on_head(&free.rest_pose, f64::from(free.form.weight())),
+            rest_weight: weight::on_head(&free.rest_pose, f64::from(free.form.gravity)),
             bodies: (1..=steps).map(bodies).collect(),
         }
     }

@@ -145,7 +145,7 @@ impl<S: Scalar> Strand<S> {
     /// Takes what the solve leaves of roundings at rest.
     fn take_rest(&mut self, free: &FreeMotion) {
         let Self { segments, chain, residual, .. } = self;
-        let weight = Vector::from(weight::on_head(&free.rest_pose, f64::from(free.form.weight())));
+        let weight = Vector::from(weight::on_head(&free.rest_pose, f64::from(free.form.gravity)));
         for (i, segment) in segments.iter().enumerate() {
             chain.pushed[i] = weight.times(segment.moved_by.push);
             chain.drag[i] = segment.air;

@@ -64,7 +64,7 @@ fn the_twins_agree_in_each_frame_among_bodies_that_hair_slides_along() {
     let (skin, way) = (Arc::new(skin_of(ball(3.5), "body[0].mesh").unwrap()), BodyWay::InWorld(ball_poses.into()));
     let passing = Body::new("body[0]", skin, way, Contact { margin: 0.1, friction: 0.4, static_friction: 0.6 });
     let bodies = vec![Body::head(&head, Contact::default()), passing];
-    let form = FreeForm { stiffness: 2000.0.into(), hold: 10.0.into(), gravity: 60.0.into(), ..Default::default() };
+    let form = FreeForm { stiffness: 2000.0.into(), hold: 10.0.into(), gravity: 60.0, ..Default::default() };
     let free = FreeMotion { form, bodies, rest_pose: poses[0], ..Default::default() };
     let alone = FreeMotion { bodies: Vec::new(), ..free.clone() };
     let motion =

@@ -1,0 +1,67 @@
+//! `[[force]]`: the intervals of the wind, by their strength or by their speed.
+
+use glam::Vec3;
+use nabiki::field::Keyframe;
+use nabiki::setting::{Place, Range, Value, refused};
+use nabiki::{SettingError, settings};
+
+use super::quantity::{Quantity, Speed};
+
+settings! {
+    /// One interval of the wind: `vector` drives every frame after the interval before it, up to `through`.
+    #[derive(Copy)]
+    pub struct ForceSettings {
+        /// Last frame that feels this vector (k_j of equation (5)).
+        pub through: u32 => of Keyframe, must "50";
+        /// Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair). With a `speed`, the direction
+        /// alone.
+        pub vector: Vec3 => of Keyframe, must "[-100, 0, 0]";
+        /// How fast the air goes that carries the hair, in the free form: "20 km/h", "5 m/s" or "300 cm/s". The strength is then what
+        /// carries free hair so fast.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub speed: Option<Quantity<Speed>> = None => "Speed", open "the length of `vector` is the strength";
+    }
+}
+
+impl ForceSettings {
+    /// What a stepper takes, where a wind of 1 cm/s is as strong as `of_speed`.
+    pub fn keyframe(&self, of_speed: f64) -> Keyframe {
+        let Self { through, vector, speed } = *self;
+        let vector = match speed {
+            None => vector,
+            Some(speed) => (vector.as_dvec3().normalize_or_zero() * (speed.amount() * of_speed)).as_vec3(),
+        };
+        Keyframe { through, vector }
+    }
+
+    /// Its vector without a speed: the direction alone where it has one.
+    pub(crate) fn as_given(&self) -> Keyframe {
+        Keyframe { through: self.through, vector: self.vector }
+    }
+
+    /// Refuses a speed that goes nowhere, and one out of range.
+    pub(crate) fn check_speed(&self, name: &str) -> Result<(), SettingError> {
+        match self.speed {
+            Some(speed) if self.vector == Vec3::ZERO => {
+                let remedy = "a wind of this speed needs a direction: give vector one";
+                refused(&Place::Table(name).key("speed"), speed, remedy)
+            }
+            speed => speed.check(&Place::Table(name).key("speed"), &Range::default()),
+        }
+    }
+}
+
+impl From<Keyframe> for ForceSettings {
+    fn from(Keyframe { through, vector }: Keyframe) -> Self {
+        Self { through, vector, speed: None }
+    }
+}
+
+/// Intervals as a scene has them: where the force is what `was` has in these frames, it stays as it is `given` there.
+pub(crate) fn given_as(given: &[ForceSettings], was: &[Keyframe], keys: &[Keyframe]) -> Vec<ForceSettings> {
+    let given = |key: &Keyframe| {
+        let j = was.partition_point(|was| was.through < key.through).min(was.len().checked_sub(1)?);
+        (was[j].vector == key.vector).then(|| ForceSettings { through: key.through, ..given[j] })
+    };
+    keys.iter().map(|key| given(key).unwrap_or_else(|| (*key).into())).collect()
+}

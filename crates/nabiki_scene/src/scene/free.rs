@@ -1,0 +1,100 @@
+//! `[free]`: the free form, with what an animator says in units of the world.
+
+use nabiki::dynamics::{Dynamics, earth_gravity, stiffness_of, substeps};
+use nabiki::free_form::{FreeForm, Tie};
+use nabiki::locks::Variation;
+use nabiki::setting::{Place, refused};
+use nabiki::{Profile, SettingError, settings};
+
+use super::quantity::{Amount, Length, Measure, Strength, Time, Weight};
+
+settings! {
+    /// How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F, or in one of the world.
+    pub struct FreeSettings in "free" where weight_bends_it {
+        /// How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. "4.5 cm" is hair that bends under
+        /// its own `gravity` within that length, as real hair does. One, or a list from root to tip. K of docs/motion-forms.md: EI = 3/8 A
+        /// L K d^2, with d `hair.segment_length`. Hair bends alike however finely it is cut.
+        pub stiffness: Profile<Amount<Length>> = in_own_unit(&FreeForm::default().stiffness) => of FreeForm;
+        /// How firmly hair keeps its place on the head, as with hair spray. "0.3 g" pulls with so much of its weight on the earth. One
+        /// number, or a list from root to tip. H: turns segments toward their rest direction on the head. Against a force F, limp hair
+        /// settles along F + H r.
+        pub hold: Profile<Amount<Strength>> = in_own_unit(&FreeForm::default().hold) => of FreeForm;
+        /// Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. "0.8 s" are as many
+        /// as pass in it. One number, or a list from root to tip, interpolated in frames: next to a 0 hair hardly swings.
+        pub settle: Profile<Amount<Time>> = in_own_unit(&FreeForm::default().settle) => of FreeForm;
+        /// How fast moved hair falls. A strength, or "1 g" for that of the earth, 981 cm/s^2 at `motion.frame_rate`; "earth" is the same.
+        /// Hair at rest does not sag.
+        pub gravity: Amount<Weight> = FreeForm::default().gravity.into() => of FreeForm;
+        /// How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or a list from root to
+        /// tip. It weighs the head's turn, its acceleration and the pull of the still air.
+        pub drag: Profile => of FreeForm;
+        /// Whether `[pseudo_force]` weakens the field before the head, as in the paper's form.
+        pub pseudo_force: bool => of FreeForm;
+        /// How locks differ, so that they part in the wind.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub variation: Option<Variation> => of FreeForm, open "all alike";
+        /// A band that ties hair: strands that pass it at rest are held from the root to the band.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub tie: Option<Tie> => of FreeForm, open "no band";
+        /// Steps that a frame is divided into. Left open, a scene takes as many as weight and stiffness need, and at least 2.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub substeps: Option<u32> => of FreeForm, open "by weight and stiffness";
+    }
+}
+
+/// Numbers as a scene holds them.
+fn in_own_unit<M: Measure>(profile: &Profile) -> Profile<Amount<M>> {
+    profile.map(|&number| number.into())
+}
+
+/// How long the hair of a scene is in the mean, and its segments (cm).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MeanLengths {
+    pub strand: f64,
+    pub segment: f64,
+}
+
+impl FreeSettings {
+    /// The same in the unit of the force and in frames, as steppers take it, for hair of these lengths.
+    pub(crate) fn resolved(&self, dynamics: &Dynamics, mean: MeanLengths) -> FreeForm {
+        let Self { stiffness, hold, settle, gravity, drag, pseudo_force, variation, tie, substeps: steps } = self;
+        let earth = f64::from(earth_gravity(dynamics, mean.strand));
+        let gravity = gravity.number(|g| g * earth);
+        let bent = |cm: f64| stiffness_of(dynamics, gravity.into(), mean.strand, cm);
+        let mut form = FreeForm {
+            stiffness: stiffness.map(|stiffness| stiffness.number(bent)),
+            hold: hold.map(|hold| hold.number(|g| g * earth)),
+            settle: settle.map(|settle| settle.number(|seconds| seconds * dynamics.motion.frame_rate)),
+            gravity,
+            drag: drag.clone(),
+            pseudo_force: *pseudo_force,
+            variation: *variation,
+            tie: *tie,
+            substeps: *steps,
+        };
+        let needed = || substeps(dynamics, &form, gravity, [mean.strand, mean.segment]);
+        form.substeps = Some(steps.unwrap_or_else(needed));
+        form
+    }
+
+    /// Takes over a solver's stiffness and settling where they are others than the scene's own, which were `was` to it.
+    pub(crate) fn accept(&mut self, was: &FreeForm, stiffness: &Profile, settle: &Profile) {
+        if *stiffness != was.stiffness {
+            self.stiffness = in_own_unit(stiffness);
+        }
+        if *settle != was.settle {
+            self.settle = in_own_unit(settle);
+        }
+    }
+
+    /// A length in which weight bends hair says nothing without weight.
+    fn weight_bends_it(&self, at: &Place) -> Result<(), SettingError> {
+        match self.stiffness.values().iter().find_map(Amount::quantity) {
+            Some(length) if self.gravity.is_zero() => {
+                let remedy = "hair without gravity bends within no length: give gravity, or a number";
+                refused(&at.key("stiffness"), length, remedy)
+            }
+            _ => Ok(()),
+        }
+    }
+}
