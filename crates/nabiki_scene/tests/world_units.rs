@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use nabiki::dynamics::{Form, push};
 use nabiki::free_form::FreeForm;
+use nabiki::solve::Answer;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 use proptest::prelude::*;
 
@@ -180,6 +181,35 @@ fn a_setting_keeps_what_was_written_and_another_takes_its_place() {
     let changed = scene.with_setting("force[0].speed", None).unwrap();
     let (left, gone) = (changed.to_toml().unwrap(), "speed = \"5m/s\" # a breeze\n");
     assert_eq!(left, given.replace(gone, ""));
+}
+
+#[test]
+fn what_a_solver_leaves_as_it_was_stays_as_it_was_given() {
+    let force =
+        "vector = [-1, 0, 0]\nspeed = \"18 km/h\"\n[[force]]\nthrough = 30\nvector = [0, 1, 0]\nspeed = \"2 m/s\"";
+    let built = built("", "stiffness = \"4.5 cm\"\nsettle = \"0.6 s\"", force);
+    let keyframes = built.forces.intervals().to_vec();
+    let (stiffness, settle) = (Some(form(&built).stiffness.clone()), Some(form(&built).settle.clone()));
+    let mut answer = Answer { keyframes, gust: None, stiffness, settle };
+    let accepted = |answer: &Answer| {
+        let mut scene = built.scene.clone();
+        scene.accept(answer, &built);
+        scene
+    };
+    assert_eq!(accepted(&answer), built.scene, "nothing was found");
+    // Another border keeps the speed on both sides, another vector takes the place of its own.
+    answer.keyframes[0].through = 15;
+    answer.keyframes[1].vector.y += 1.0;
+    let scene = accepted(&answer);
+    let [first, second] = scene.field.force[..] else { panic!("two intervals") };
+    assert_eq!((first.through, first.vector, first.speed), (15, Vec3::NEG_X, built.scene.field.force[0].speed));
+    assert_eq!((second.vector, second.speed), (answer.keyframes[1].vector, None));
+    assert_eq!(scene.free, built.scene.free);
+    // Hair that settles in another time would be carried as fast by another strength.
+    answer.settle = Some(9.0.into());
+    let scene = accepted(&answer);
+    assert!(scene.field.force.iter().all(|force| force.speed.is_none()));
+    assert_eq!((&scene.free.stiffness, scene.free.settle.values()), (&built.scene.free.stiffness, &[9.0.into()][..]));
 }
 
 proptest! {
