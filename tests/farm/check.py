@@ -28,7 +28,7 @@ RESULTS = ["{name}.nabiki", "{name}.mp4"]
 JOBS = [
     ("scenes/paper/gust.toml", [], 3, 4, 11),
     ("scenes/head_turn.toml", ["--set", "picture.shutter=0.5"], 7, 5, 13),
-    ("scenes/storm.toml", ["--strands", "90"], 1, 3, 6),
+    ("scenes/storm.toml", ["--set", "hair.strands=900", "--strands", "90"], 1, 3, 6),
 ]
 
 
