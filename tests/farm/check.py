@@ -3,6 +3,7 @@
     python3 tests/farm/check.py            builds, makes its own environment, checks
     python3 tests/farm/check.py --slurm    besides, submits a job to the Slurm of this machine and waits for it
     python3 tests/farm/check.py --nabiki COMMAND    with a command that is built already
+    python3 tests/farm/check.py --environment       the environment, and nothing else
 
 openjd-cli comes from PyPI into target/farm. Jobs of Open Job Description are checked and run by it: all steps, then a task
 once more, as after a machine was lost. The tasks of a Slurm script are run as Slurm would run them, one after another;
@@ -27,7 +28,7 @@ RESULTS = ["{name}.nabiki", "{name}.mp4"]
 JOBS = [
     ("scenes/paper/gust.toml", [], 3, 4, 11),
     ("scenes/head_turn.toml", ["--set", "picture.shutter=0.5"], 7, 5, 13),
-    ("scenes/storm.toml", ["--strands", "90"], 1, 3, 6),
+    ("scenes/storm.toml", ["--set", "hair.strands=900", "--strands", "90"], 1, 3, 6),
 ]
 
 
@@ -156,10 +157,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--slurm", action="store_true", help="submit to the Slurm of this machine, too")
     parser.add_argument("--nabiki", type=Path, help="the command, built already")
+    parser.add_argument("--environment", action="store_true", help="make the environment, and nothing else")
     arguments = parser.parse_args()
-    nabiki = arguments.nabiki or build()
     WORK.mkdir(parents=True, exist_ok=True)
     openjd = environment()
+    if arguments.environment:
+        return
+    nabiki = arguments.nabiki or build()
     names(openjd, nabiki)
 
     for scene, changes, shards, frames_a_task, frames in JOBS:

@@ -3,6 +3,7 @@
     python3 tests/interchange/check.py                  builds, makes its own environment, checks
     python3 tests/interchange/check.py --nabiki COMMAND with a command that is built already, and examples/interchange beside it
     python3 tests/interchange/check.py --bpy PYTHON     the Blender part with another Python, one that has bpy
+    python3 tests/interchange/check.py --environment    the environments, and nothing else
 
 usd-core, alembic3d and numpy come from PyPI into target/interchange. Blender comes along as the package bpy where there
 is a Python 3.11, which it wants (a gigabyte once installed, and some shared libraries of a desktop); where it cannot be
@@ -235,9 +236,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
     parser.add_argument("--nabiki", type=Path, help="a command that is built already, and examples/interchange beside it")
+    parser.add_argument("--environment", action="store_true", help="make the environments, and nothing else")
     arguments = parser.parse_args()
 
     WORK.mkdir(parents=True, exist_ok=True)
+    if arguments.environment:
+        environment()
+        blender(arguments.bpy or os.environ.get("NABIKI_BPY_PYTHON"))
+        return
     if arguments.nabiki:
         nabiki = arguments.nabiki.resolve()
     else:

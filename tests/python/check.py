@@ -4,6 +4,7 @@
     python3 tests/python/check.py --wheel FILE     the same with a wheel that is built already
     python3 tests/python/check.py --profile dev    the same with a wheel of what the tests have compiled, optimised, too
     python3 tests/python/check.py --speed          besides, 20,000 strands x 20 beside the command
+    python3 tests/python/check.py --environment    the Python with the tools, and nothing else
 
 maturin, numpy, pytest, mypy and nbclient come from PyPI into target/python.
 """
@@ -42,7 +43,10 @@ def wheel(python, profile):
     """The wheel, with its stubs, in a profile of Cargo's."""
     shutil.rmtree(WORK / "wheels", ignore_errors=True)
     build = ["build", "--profile", profile, "--generate-stubs", "--out", WORK / "wheels"]
-    run(python, "-m", "maturin", *build, cwd=CRATE)
+    # In the tests' profile with the tests' features, too: as_tested/cargo says why.
+    first = [str(HERE / "as_tested")] if profile == "dev" else []
+    path = os.pathsep.join([*first, os.environ["PATH"]])
+    run(python, "-m", "maturin", *build, cwd=CRATE, env={**os.environ, "PATH": path})
     (built,) = (WORK / "wheels").glob("*.whl")
     return built
 
@@ -53,10 +57,13 @@ def main():
     parser.add_argument("--nabiki", type=Path, help="a command that is built already")
     parser.add_argument("--profile", default="release", help="Cargo's profile of the wheel, release if it is not said")
     parser.add_argument("--speed", action="store_true", help="measure, too")
+    parser.add_argument("--environment", action="store_true", help="the Python with the tools, and nothing else")
     arguments = parser.parse_args()
 
     WORK.mkdir(parents=True, exist_ok=True)
     python = environment()
+    if arguments.environment:
+        return
     built = arguments.wheel or wheel(python, arguments.profile)
     run(python, "-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps", built)
     if not arguments.nabiki:

@@ -8,7 +8,7 @@ use std::path::Path;
 use common::{refuse, succeed};
 
 const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml");
-const FEW: &str = "--strands 20 --frames 3 --set output.sheet=[0] --set picture.size=[96,64]";
+const FEW: &str = "--set hair.strands=900 --strands 20 --frames 3 --set output.sheet=[0] --set picture.size=[96,64]";
 
 /// Changes the points of frame `n` of the cache `name`, as bytes.
 fn change_points(folder: &Path, name: &str, n: usize, change: impl Fn(&mut [u8])) {

@@ -81,7 +81,7 @@ fn a_file_that_may_not_grow_is_refused_like_a_full_disk() {
     let cache = folder.path().join("long.nabiki");
     // Of 512 or 1024 bytes each, as the shell has it.
     let limited = format!(
-        "ulimit -f 100; exec {} simulate {GUST} --strands 300 --frames 40 -q -o {}",
+        "ulimit -f 100; exec {} simulate {GUST} --set hair.strands=900 --strands 300 --frames 40 -q -o {}",
         env!("CARGO_BIN_EXE_nabiki"),
         cache.display()
     );

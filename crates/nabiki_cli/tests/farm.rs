@@ -12,6 +12,8 @@ use common::{nabiki, succeed};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
 
+// Roots are spread for all strands of a scene, of however few are moved: `hair.strands` is small so that each command is soon done.
+
 /// The one line of a refusal, after which the folder holds what it held.
 fn refuse(folder: &TempDir, words: &str) -> String {
     let before = everything(folder.path());
@@ -41,15 +43,15 @@ fn bytes(folder: &TempDir, name: &str) -> Vec<u8> {
 /// Both forms of the motion, the second with carriers and a turning head; the last with hair of a file, cut anew, of which
 /// some strands are shown.
 fn scenes(folder: &TempDir) -> [(String, &'static str); 5] {
-    succeed(folder, &format!("groom {SCENES}/bob.toml --strands 300 -o hair.usdc"));
+    succeed(folder, &format!("groom {SCENES}/bob.toml --set hair.strands=900 --strands 300 -o hair.usdc"));
     let imported =
         "[hair]\nfile = \"hair.usdc\"\njoin_within = 0\nsegments = 9\n\n[[force]]\nthrough = 5\nvector = [-40, 5, 0]\n";
     fs::write(folder.path().join("imported.toml"), imported).unwrap();
     [
-        (format!("{SCENES}/paper/gust.toml"), "--strands 83"),
-        (format!("{SCENES}/paper/running.toml"), "--strands 83"),
-        (format!("{SCENES}/head_turn.toml"), "--strands 700"),
-        (format!("{SCENES}/storm.toml"), "--strands 83 --set neighbours.carriers=40"),
+        (format!("{SCENES}/paper/gust.toml"), "--set hair.strands=900 --strands 83"),
+        (format!("{SCENES}/paper/running.toml"), "--set hair.strands=900 --strands 83"),
+        (format!("{SCENES}/head_turn.toml"), "--set hair.strands=900 --strands 700"),
+        (format!("{SCENES}/storm.toml"), "--set hair.strands=900 --strands 83 --set neighbours.carriers=40"),
         ("imported.toml".to_owned(), "--strands 190"),
     ]
 }
@@ -82,7 +84,8 @@ fn shards_of_any_number_join_into_the_file_that_one_machine_writes() {
 #[test]
 fn every_strand_may_have_a_shard_of_its_own() {
     let folder = TempDir::new().unwrap();
-    let all = format!("{SCENES}/storm.toml --strands 5 --frames 3 --set output.sheet=[0] --quiet");
+    let all =
+        format!("{SCENES}/storm.toml --set hair.strands=900 --strands 5 --frames 3 --set output.sheet=[0] --quiet");
     succeed(&folder, &format!("simulate {all} -o whole.nabiki"));
     for k in 1..=5 {
         succeed(&folder, &format!("simulate {all} --shard {k}/5 -o {k}.nabiki"));
@@ -94,7 +97,7 @@ fn every_strand_may_have_a_shard_of_its_own() {
 #[test]
 fn the_f64_twin_can_be_divided_too_and_not_be_mixed() {
     let folder = TempDir::new().unwrap();
-    let all = format!("{SCENES}/gust.toml --strands 30 --frames 3 --set output.sheet=[0]");
+    let all = format!("{SCENES}/gust.toml --set hair.strands=900 --strands 30 --frames 3 --set output.sheet=[0]");
     succeed(&folder, &format!("simulate {all} --stepper f64 -o whole.nabiki"));
     for k in [1, 2] {
         succeed(&folder, &format!("simulate {all} --stepper f64 --shard {k}/2 -o {k}.nabiki"));
@@ -111,7 +114,8 @@ fn the_f64_twin_can_be_divided_too_and_not_be_mixed() {
 fn frames_of_any_division_are_those_of_the_film_and_make_its_movie() {
     let folder = TempDir::new().unwrap();
     for (name, changes) in [("gust", "--set picture.shutter=0.5"), ("head_turn", ""), ("hand", "")] {
-        let small = "--strands 60 --set picture.size=[96,64] --set output.sheet=[0] --set motion.frames=8 --quiet";
+        let small = "--set hair.strands=900 --strands 60 --set motion.frames=8 --set picture.size=[96,64] \
+                     --set output.sheet=[0] --quiet";
         let scene = format!("{SCENES}/{name}.toml {changes} {small}").replace("  ", " ");
         let deep = "--set output.png_bits=16";
         succeed(&folder, &format!("simulate {scene} -o motion.nabiki"));
@@ -143,7 +147,8 @@ fn frames_of_any_division_are_those_of_the_film_and_make_its_movie() {
 fn a_movie_of_8_bit_frames_differs_from_the_film_by_their_rounding_alone() {
     let folder = TempDir::new().unwrap();
     let scene = format!(
-        "{SCENES}/gust.toml --strands 60 --set picture.size=[96,64] --set output.sheet=[0] --set motion.frames=2"
+        "{SCENES}/gust.toml --set hair.strands=900 --strands 60 --set motion.frames=2 --set picture.size=[96,64] \
+         --set output.sheet=[0]"
     );
     succeed(&folder, &format!("run {scene} --out whole"));
     succeed(&folder, &format!("render {scene} --frames 0..2 --out parts"));
@@ -201,7 +206,7 @@ fn frames_that_are_not_there_are_refused() {
 #[test]
 fn shards_that_cannot_be_are_refused() {
     let folder = TempDir::new().unwrap();
-    let scene = format!("{SCENES}/gust.toml --strands 20 --frames 2 --set output.sheet=[0]");
+    let scene = format!("{SCENES}/gust.toml --set hair.strands=900 --strands 20 --frames 2 --set output.sheet=[0]");
     for (words, why) in [
         ("--shard 3/21 -o m.nabiki", "shard 3/21: more shards than there are strands; part them into 20 at the most"),
         ("--shard 1/2 -o m.usdc", "a shard goes into a motion cache (.nabiki) alone"),
@@ -217,7 +222,7 @@ fn shards_that_cannot_be_are_refused() {
 #[test]
 fn what_is_not_all_shards_of_one_motion_is_not_joined() {
     let folder = TempDir::new().unwrap();
-    let gust = format!("{SCENES}/gust.toml --strands 20 --set output.sheet=[0]");
+    let gust = format!("{SCENES}/gust.toml --set hair.strands=900 --strands 20 --set output.sheet=[0]");
     let simulate = |words: &str| succeed(&folder, &format!("simulate {gust} {words}"));
     for k in 1..=3 {
         simulate(&format!("--frames 2 --shard {k}/3 -o {k}_of_3.nabiki"));
@@ -310,7 +315,7 @@ fn the_command_that_join_names_makes_what_is_missing() {
 fn the_command_that_a_gap_is_answered_with_fills_it() {
     let folder = TempDir::new().unwrap();
     fs::copy(format!("{SCENES}/gust.toml"), folder.path().join("gust.toml")).unwrap();
-    let changes = "--set motion.frames=3 --strands 20 --set picture.size=[96,64]";
+    let changes = "--set motion.frames=3 --set hair.strands=900 --strands 20 --set picture.size=[96,64]";
     fs::create_dir(folder.path().join("some")).unwrap();
     succeed(&folder, &format!("simulate gust.toml {changes} -o some/gust.nabiki"));
     let deep = "--set output.png_bits=16";
@@ -330,7 +335,7 @@ fn the_command_that_a_gap_is_answered_with_fills_it() {
 #[test]
 fn frames_that_make_no_movie_are_refused() {
     let folder = TempDir::new().unwrap();
-    let small = "--strands 20 --set output.sheet=[0] --set motion.frames=4 --quiet";
+    let small = "--set hair.strands=900 --strands 20 --set output.sheet=[0] --set motion.frames=4 --quiet";
     let draw = |words: &str| succeed(&folder, &format!("render {SCENES}/gust.toml {small} {words}"));
     draw("--set picture.size=[96,64] --frames 0..4 --out a");
     draw("--set picture.size=[64,64] --frames 2..2 --out b");

@@ -8,7 +8,7 @@ const GUST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/gust.toml"
 fn render(folder: &Path, arguments: &str) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_nabiki"));
     command.current_dir(folder).args(["--quiet", "render", GUST, "--strands", "40", "--out", "out"]);
-    command.args(["--set", "picture.size=[96,64]", "--set", "output.png_frames=true"]);
+    command.args(["--set", "hair.strands=900", "--set", "picture.size=[96,64]", "--set", "output.png_frames=true"]);
     command.args(arguments.split_whitespace()).output().unwrap()
 }
 
@@ -36,7 +36,7 @@ fn the_first_picture_is_the_frame_itself_and_half_a_turn_is_the_other_side() {
 fn a_shorter_turn_leaves_nothing_of_a_longer_one() {
     let folder = tempfile::tempdir().unwrap();
     for (pictures, removed) in [(5, false), (3, true)] {
-        let arguments = format!("--turntable {pictures} --set output.movie=false");
+        let arguments = format!("--turntable {pictures} --set output.movie=false --set hair.strands=900");
         let mut words: Vec<&str> = arguments.split(' ').collect();
         words.extend(["--set", "output.png_frames=true", "--set", "picture.size=[96,64]", "--strands", "40"]);
         let mut command = Command::new(env!("CARGO_BIN_EXE_nabiki"));

@@ -4,7 +4,7 @@ import pickle
 
 import numpy
 import pytest
-from conftest import SCENES
+from conftest import SCENES, STRANDS
 
 import nabiki
 
@@ -25,7 +25,7 @@ def test_parts_of_a_refused_setting(tmp_path):
 
 def lines():
     """What cannot be, and a word of the way out."""
-    gust = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0]})
+    gust = nabiki.Scene.open(SCENES / "gust.toml", {"hair.strands": STRANDS, "motion.frames": 3, "output.sheet": [0]})
     points, offsets = gust.groom(strands=3)
     wrong = points.copy()
     wrong[4] = numpy.nan
@@ -108,7 +108,7 @@ def test_what_cannot_be_is_one_line_with_a_way_out(place, tmp_path, monkeypatch)
     ],
 )
 def test_arguments_of_another_type_are_exceptions_of_python(wrong):
-    scene = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0]})
+    scene = nabiki.Scene.open(SCENES / "gust.toml", {"hair.strands": STRANDS, "motion.frames": 3, "output.sheet": [0]})
     with pytest.raises(TypeError):
         wrong(scene)
 
@@ -147,7 +147,7 @@ NUMBERS = {
 @pytest.mark.parametrize("case", NUMBERS)
 def test_a_number_out_of_its_range_is_named_with_its_range(case, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    scene = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0]})
+    scene = nabiki.Scene.open(SCENES / "gust.toml", {"hair.strands": STRANDS, "motion.frames": 3, "output.sheet": [0]})
     thing, words, call = NUMBERS[case]
     for wrong in (-(2**31), -(10**30), 10**400, numpy.int64(-(2**40))):
         with pytest.raises(nabiki.Error) as refused:
@@ -159,7 +159,7 @@ def test_a_number_out_of_its_range_is_named_with_its_range(case, tmp_path, monke
 
 @pytest.mark.parametrize("wrong", [float("nan"), float("inf"), -float("inf"), 1e300, -1e300])
 def test_numbers_that_are_none_are_refused_by_name(wrong):
-    scene = nabiki.Scene.open(SCENES / "gust.toml", {"motion.frames": 3, "output.sheet": [0]})
+    scene = nabiki.Scene.open(SCENES / "gust.toml", {"hair.strands": STRANDS, "motion.frames": 3, "output.sheet": [0]})
     before = scene.settings()
     for thing, put in [
         ("motion.time_step", lambda: setattr(scene.motion, "time_step", wrong)),

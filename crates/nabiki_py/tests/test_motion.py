@@ -4,7 +4,7 @@ import threading
 
 import numpy
 import pytest
-from conftest import SCENES, bits, cache_frames, command
+from conftest import SCENES, STRANDS, bits, cache_frames, command
 
 import nabiki
 
@@ -13,8 +13,10 @@ import nabiki
 def test_points_and_poses_are_the_commands_to_the_bit(name, tmp_path):
     scene = SCENES / f"{name}.toml"
     cache = tmp_path / "motion.nabiki"
-    command("simulate", scene, "--strands", 200, "--frames", 15, "--set", "output.sheet=[0]", "-o", cache, "--quiet")
-    motion = nabiki.Scene.open(scene, {"motion.frames": 15, "output.sheet": [0]}).simulate(strands=200)
+    small = ["--set", f"hair.strands={STRANDS}", "--set", "output.sheet=[0]", "--frames", 15]
+    command("simulate", scene, *small, "--strands", 200, "-o", cache, "--quiet")
+    settings = {"hair.strands": STRANDS, "motion.frames": 15, "output.sheet": [0]}
+    motion = nabiki.Scene.open(scene, settings).simulate(strands=200)
     there = list(cache_frames(cache))
     assert len(motion) == len(there) == 16
     for frame, (pose, points) in zip(motion, there, strict=True):
@@ -107,7 +109,7 @@ def test_a_changed_scene_moves_as_one_read_anew(gust):
     gust.free.settle = 10
     fresh = nabiki.Scene.parse(gust.to_toml(), SCENES / "gust.toml")
     # What `open` was told beside the file belongs to the scene, not to the text that it was read from.
-    for key in ["motion.frames", "picture.size", "output.sheet"]:
+    for key in ["hair.strands", "motion.frames", "picture.size", "output.sheet"]:
         fresh[key] = gust[key]
     assert numpy.array_equal(bits(gust.timeline(strands=60).play()), bits(fresh.timeline(strands=60).play()))
 

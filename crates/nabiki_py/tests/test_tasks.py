@@ -11,12 +11,13 @@ import time
 
 import numpy
 import pytest
-from conftest import ROOT, SCENES, bits, command
+from conftest import ROOT, SCENES, STRANDS, bits, command
 
 import nabiki
 
 GUST = SCENES / "gust.toml"
 SMALL = ["--set", "motion.frames=12", "--set", "picture.size=[160,90]", "--set", "output.sheet=[0]", "--quiet"]
+SMALL += ["--set", f"hair.strands={STRANDS}"]
 
 
 def test_the_version_is_that_of_the_crates_and_of_the_package():
@@ -235,7 +236,7 @@ def test_whoever_is_called_may_ask_the_scene(gust, tmp_path):
 
 FORKED = """
 import multiprocessing, sys, nabiki
-scene = nabiki.Scene.open(sys.argv[1], {"motion.frames": 3, "picture.size": (64, 36), "output.sheet": [0]})
+scene = nabiki.Scene.open(sys.argv[1], {"hair.strands": 2000, "motion.frames": 3, "picture.size": (64, 36), "output.sheet": [0]})
 
 def motion(_):
     return scene.timeline(strands=300).play().tobytes(), scene.render_png(2, strands=300)
