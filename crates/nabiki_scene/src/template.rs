@@ -82,20 +82,19 @@ fn lines(table: &str, keys: &[&str]) -> String {
     keys.iter().filter_map(line).collect()
 }
 
-/// Hair as it is in life, in true timing at any frame rate: real hair that is styled a little at its root. Its steps are as many as keep
-/// single strands from whirling at 24, 25 and 30 frames a second.
+/// Hair as it is in life, in true timing at any frame rate: real hair that is styled a little at its root.
 const FREE: &str = "\
 stiffness = [\"6 cm\", \"4.5 cm\"]   # within how far hair bends under its own weight, at the root and at the tip; real hair has 4.5 cm
 hold = \"0.3 g\"              # hair spray: brings hair back to its place, by a part of its weight
 settle = \"0.6 s\"            # how long until a swing has fallen to a third
 gravity = \"1 g\"             # as on the earth
 drag = 1.0                  # how far a head that moves leaves hair behind: 1 is as in life
-substeps = 4                # steps that a frame is divided into
 ";
 
 /// Motion, wind and camera of a new scene.
 fn rest(Shot { frames, rate }: Shot) -> String {
     let contact = lines("contact", &["margin", "friction", "static_friction"]);
+    let variation = lines("free.variation", &["air", "flutter", "flyaways"]);
     let neighbours: String =
         lines("neighbours", &["pressure", "cohesion"]).lines().map(|line| format!("# {line}\n")).collect();
     // Intervals have a frame at least.
@@ -113,6 +112,9 @@ inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside i
 # What holds hair in shape and calms it. All but the weight may be lists from root to tip; plain numbers are in the unit of the force.
 [free]
 {FREE}
+# How locks differ, so that they part in the wind; without this table hair moves as one sheet.
+[free.variation]
+{variation}
 # Hair stays out of the head, and of every [[body]] with a mesh and a motion, or one that goes with_head.
 [contact]
 {contact}

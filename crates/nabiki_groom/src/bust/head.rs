@@ -1,5 +1,7 @@
 //! What was read as a head: its mesh with the sampled distance.
 
+use std::sync::LazyLock;
+
 use nabiki::distance::{COARSE, EDGE, Samples};
 use nabiki::glam::{UVec3, Vec3};
 use nabiki::{Ellipsoid, Head};
@@ -16,10 +18,14 @@ const BAKED: &[u8] = include_bytes!("bust.bin");
 /// The project's own bust: head, neck and shoulders of a calm adult, eyes open, no hair. The same on every
 /// machine, and on both sides of z = 0, to the bit.
 pub fn bust() -> Head {
-    let bust = read::numbers(BAKED);
-    let mut head = Head::from_samples(read::mesh(&bust), ELLIPSOID, samples(&bust)).expect("the bust is a head");
-    head.is_builtin = true;
-    head
+    // Whoever builds scene after scene asks for it again and again.
+    static BUST: LazyLock<Head> = LazyLock::new(|| {
+        let bust = read::numbers(BAKED);
+        let mut head = Head::from_samples(read::mesh(&bust), ELLIPSOID, samples(&bust)).expect("the bust is a head");
+        head.is_builtin = true;
+        head
+    });
+    BUST.clone()
 }
 
 /// The sampled distance, whose right half stands for both.

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from ._table import Arrays, File, Matrices, Numbers, Table, Tables
+from .hair import Variation
 
 __all__ = ["Contact", "Disturbance", "FreeSettings", "Motion", "NeighbourForces", "PseudoForce", "Tie"]
 
@@ -203,6 +204,15 @@ class FreeSettings(Table):
     @pseudo_force.setter
     def pseudo_force(self, value: bool | None) -> None:
         self._set('pseudo_force', value)
+
+    @property
+    def variation(self) -> Variation:
+        """How locks differ, so that they part in the wind."""
+        return Variation(self._scene, self._key_of('variation'))
+
+    @variation.setter
+    def variation(self, value: Variation | Mapping[str, Any] | None) -> None:
+        self._set('variation', value)
 
     @property
     def tie(self) -> Tie:

@@ -670,8 +670,8 @@ class HeadLook(Table):
 
     @property
     def face(self) -> bool:
-        """Whether the built-in head has brows, eyes and lips of their colours; other heads have what their mesh has,
-        one colour. True or false; default: true.
+        """Whether the built-in head has brows, eyes and lips of their colours; other heads have what their mesh has, one
+        colour. True or false; default: true.
         """
         value: bool = self._get('face')
         return value
