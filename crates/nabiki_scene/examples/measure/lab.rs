@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use glam::{DVec3, Quat, Vec3};
-use nabiki::dynamics::{Dynamics, Form, Timeline, earth_gravity};
+use nabiki::dynamics::{Dynamics, Form, Timeline, earth_gravity, substeps};
 use nabiki::field::{Keyframe, KeyframedField};
 use nabiki::free_form::{EARTH_CM_PER_S2, FreeForm, FreeMotion};
 use nabiki::{Ellipsoid, Pose, Profile, SettingError, Strands};
@@ -75,7 +75,7 @@ fn dynamics(gamma: f64, rate: f64, settle: f64) -> Dynamics {
     let gravity = earth_gravity(&dynamics, LENGTH_CM);
     // EI / lambda = 3/8 A L K d^2, and gamma = A gravity L^3 over that.
     let stiffness = f64::from(gravity) * LENGTH_CM.powi(2) / (0.375 * gamma);
-    let form = FreeForm {
+    let mut form = FreeForm {
         stiffness: Profile::Even(stiffness as f32),
         hold: Profile::Even(0.0),
         settle: Profile::Even(settle as f32),
@@ -83,6 +83,8 @@ fn dynamics(gamma: f64, rate: f64, settle: f64) -> Dynamics {
         drag: nabiki::Profile::Even(1.0),
         ..FreeForm::default()
     };
+    // As many as a scene with such hair takes.
+    form.substeps = Some(substeps(&dynamics, &form, gravity, [LENGTH_CM, LENGTH_CM / SEGMENTS as f64]));
     dynamics.form = Form::Free(FreeMotion { form, ..FreeMotion::default() });
     dynamics
 }

@@ -25,7 +25,11 @@ pub fn measure(scene: Scene, strands: usize) -> Result<(), Box<dyn std::error::E
     println!("{} strands, {} frames at {} a second", rest.len(), film.frames(), built.dynamics.motion.frame_rate);
 
     if let Some((from, through)) = first_wind(&scene) {
-        rises(&built, &film, from, through);
+        // The reference knows no locks.
+        let mut alike = scene.clone();
+        alike.free.variation = None;
+        let built = alike.build(Shown::AtMost(strands))?;
+        rises(&built, &built.timeline()?.play(), from, through);
     }
     let tips: Vec<Vec<DVec3>> = (0..rest.len()).map(|s| tip_of(&film, s)).collect();
     alike(rest, &tips);
