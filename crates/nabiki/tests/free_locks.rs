@@ -53,14 +53,14 @@ fn a_strand_that_takes_more_air_moves_as_in_that_much_more_wind_that_settles_it_
     let variation = Variation { air: 0.5, flyaways: 0.3, ..alike(Variation::default()) };
     let dynamics = free(form(Some(variation)));
     let together = tips(&hair, &dynamics, &wind());
-    for s in 0..hair.len() {
+    for (s, &together) in together.iter().enumerate() {
         let air = motion(&dynamics).own(hair.strand(s)).air as f32;
         let settle = Profile::Even(20.0 / air);
         let vectors = [(50, [-100.0, 0.0, 0.0]), (100, [-15.0, -150.0, 0.0])];
         let stronger = field(&vectors.map(|(through, vector)| (through, vector.map(|along: f32| along * air))));
         let alone = tips(&hair.select(&[s]), &free(FreeForm { settle, ..form(None) }), &stronger)[0];
         // The settings of the second are rounded to f32: a few parts in 10^7 of some 20 cm.
-        assert!(together[s].distance(alone) < 1e-4, "{s}: {}", together[s].distance(alone));
+        assert!(together.distance(alone) < 1e-4, "{s}: {}", together.distance(alone));
     }
 }
 

@@ -7,6 +7,7 @@ use std::path::Path;
 use glam::Vec3;
 use nabiki::Profile;
 use nabiki::dynamics::{Form, earth_gravity};
+use nabiki::locks::Locks;
 use nabiki_scene::scene::{Amount, FormChoice};
 use nabiki_scene::{Scene, Shown};
 
@@ -287,7 +288,7 @@ fn settings_without_effect_are_said() {
         ("turbulence.envelope", "[{ frame = 0, factor = 0 }]", three, "[turbulence]"),
         ("point", "[{ position = [30, 0, 0], envelope = [{ frame = 9, factor = 0 }] }]", three, "point[0]"),
         ("hair.style.variation.cut", "0.5", three, "hair.style.variation.cut"),
-        ("hair.style.ponytail", TAIL, ("hair.style.length", "{ top = 3, sides = 3, back = 3 }"), "hair.style.ponytail"),
+        ("hair.style.ponytail", TAIL, ("hair.style.length", "{ top = 2, sides = 2, back = 2 }"), "hair.style.ponytail"),
         ("hair.style.cuts", "[{ point = [0, -21, 0], normal = [0, 1, 0] }]", three, "hair.style.cuts[0]"),
         ("picture.camera.margin", "0.2", ("picture.camera.distance", "80"), "picture.camera.margin"),
         ("picture.camera.distance", "3", three, "picture.camera"),
@@ -401,4 +402,18 @@ fn up_is_that_of_the_head_s_first_pose_and_gravity_that_of_the_earth_on_hair_of_
     // It is told by the first 256 of 300 strands, whose lengths differ by a few parts in a hundred.
     assert!((free.form.gravity / wanted - 1.0).abs() < 0.02, "{}, not {wanted}", free.form.gravity);
     assert_eq!(free.rest_pose, built.pose(0));
+}
+
+#[test]
+fn clumps_of_the_groom_are_locks_unless_another_width_is_asked_for() {
+    let locks = |set: &[(&str, &str)]| {
+        let overrides: Vec<_> = set.iter().map(|&(key, value)| (key.to_owned(), value.to_owned())).collect();
+        let text = "[motion]\nform = \"free\"\n[hair]\nstrands = 20\nseed = 7\nstyle = { clumps = { size = 2.5 } }\n\
+                    [[force]]\nthrough = 3\nvector = [-40, 0, 0]";
+        let built = Scene::parse(text, Path::new("s.toml"), &overrides).unwrap().build(Shown::All).unwrap();
+        let Form::Free(free) = &built.dynamics.form else { panic!("it is of the free form") };
+        free.locks
+    };
+    assert_eq!(locks(&[("free.variation", "{}")]), Locks { size: 2.5, seed: 7 });
+    assert_eq!(locks(&[("free.variation", "{ size = 4.0 }")]), Locks { size: 4.0, seed: 7 });
 }

@@ -21,7 +21,7 @@ fn a_scene_of_the_free_form_tells_what_moves_its_hair() {
     let said = free.to_string();
     for line in [
         "motion: free form, time step 0.13, density 0.05 per cm",
-        "free: stiffness 12000 to 1000, hold 30, settle 16 frames, weight 100, drag 1, steps a frame by weight and stiffness",
+        "free: stiffness 12000 to 1000, hold 30, settle 16 frames, weight 100, drag 1, 2 steps a frame",
         "contact: margin 0.1 cm",
         "neighbours: cohesion 40, pressure 40",
         "body[0]: motion/hand.obj, moved by motion/sweep.csv, margin 0.2 cm",

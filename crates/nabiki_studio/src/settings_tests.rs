@@ -69,8 +69,9 @@ fn every_key_of_a_scene_has_a_field_with_help() {
 }
 
 /// Settings whose range depends on another one.
-const BOUND_BY_ANOTHER: [&str; 10] = [
+const BOUND_BY_ANOTHER: [&str; 11] = [
     "hair.strands",
+    "free.settle",
     "turbulence.swirl_size",
     "disturbance.over",
     "contact.friction",

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use glam::Vec3;
 use nabiki_scene::scene::ForceSettings;
 
-/// A stretch of wind, cut out: how many frames of which interval's force, one after another.
+/// A stretch of wind, cut out: how many frames of which interval's force, one after another; each goes through as many frames.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Clip(pub Vec<(u32, ForceSettings)>);
 
@@ -139,7 +139,11 @@ pub fn remove(keys: &[ForceSettings], chosen: &[usize]) -> Vec<ForceSettings> {
 /// The chosen intervals, in their order.
 pub fn copy(keys: &[ForceSettings], chosen: &[usize]) -> Clip {
     let chosen = chosen.iter().filter(|&&j| j < keys.len());
-    Clip(chosen.map(|&j| (keys[j].through - first(keys, j) + 1, keys[j])).collect())
+    let cut = |&j: &usize| {
+        let frames = keys[j].through - first(keys, j) + 1;
+        (frames, ForceSettings { through: frames, ..keys[j] })
+    };
+    Clip(chosen.map(cut).collect())
 }
 
 /// Lays a clip over the wind from frame `from` on, and says which intervals it then is. What it covers is gone, what stands

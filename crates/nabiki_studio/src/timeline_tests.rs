@@ -81,7 +81,8 @@ fn what_is_removed_leaves_its_place_to_the_one_before() {
 #[test]
 fn a_clip_lies_over_its_frames_and_no_others() {
     let clip = copy(&three(), &[0, 1]);
-    assert_eq!(clip, Clip(vec![(10, three()[0]), (20, three()[1])]));
+    let second = ForceSettings { through: 20, ..three()[1] };
+    assert_eq!(clip, Clip(vec![(10, three()[0]), (20, second)]));
     for from in 1..70_usize {
         let (pasted, chosen) = paste(&three(), from as u32, &clip);
         let (before, after) = (felt(&three()), felt(&pasted));
