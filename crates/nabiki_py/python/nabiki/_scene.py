@@ -83,8 +83,13 @@ class Scene(SceneSettings):
             self.forces = forces
 
         def read() -> list[Interval]:
-            with_speed = [(force.through, force.vector, force.speed) for force in self.force]
-            return [force if force[2] is not None else force[:2] for force in with_speed]
+            read: list[Interval] = []
+            for force in self.force:
+                if force.speed is None:
+                    read.append((force.through, force.vector))
+                else:
+                    read.append((force.through, force.vector, force.speed))
+            return read
 
         return Written(read, write)
 
