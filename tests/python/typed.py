@@ -74,7 +74,7 @@ def sequences(scene: nabiki.Scene) -> Sequence[nabiki.Frame]:
     assert film.shape[0] == len(timeline) and last.number == len(some)
     through: int = scene.force[0].through
     strengths: list[float] = [fan.strength for fan in scene.fan[1:]]
-    forces: list[tuple[int, tuple[float, float, float]]] = scene.forces[1:]
+    forces: list[tuple[int, tuple[float, float, float]] | tuple[int, tuple[float, float, float], str]] = scene.forces[1:]
     scene.forces[0] = (4, numpy.array([7, 0, 0]))
     scene.forces.append((through, [1, 0, 0]))
     scene.forces += [(12, (0, 0, 3))]
@@ -133,7 +133,7 @@ def errors(scene: nabiki.Scene) -> None:
     scene.timeline()[0].point  # type: ignore[attr-defined]
     scene.simulate().steps()  # type: ignore[attr-defined]
     scene.simulate()[0]  # type: ignore[index]
-    scene.forces[0].through  # type: ignore[attr-defined]
+    scene.forces[0].through  # type: ignore[union-attr]
     scene.forces = [(5, 1, 2, 3)]  # type: ignore[list-item]
     scene.forces.append(5)  # type: ignore[arg-type]
     scene.fan.append(5)  # type: ignore[arg-type]
