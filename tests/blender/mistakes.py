@@ -185,7 +185,7 @@ def test_frames_and_winds_that_cannot_be_are_refused(command, shared):
     # Stiffness may be any, and weight may not.
     hair.nabiki.stiffness = (1e6, 1e6)
     assert simulate() == {"FINISHED"}
-    hair.nabiki.gravity = 1e7
+    hair.nabiki.gravity = 1e8
     refused(simulate, "Settings > Weight: is too strong for this hair: keep it below")
 
 

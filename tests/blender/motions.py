@@ -50,8 +50,9 @@ def test_a_groom_of_blender_moves_as_the_command_moves_it(command, shared):
     known = commands.in_blender(known, centre())
     way = np.abs(known[-1] - known[0]).max()
     assert way > 0.02, "hardly anything moves"
-    # The same law of growth, once for what the test rounds and once for what the extension does, each number a few times.
-    left = near(found, known, 8 * apart / 100, "all frames")
+    # The same law of growth, once for what the test rounds and once for what the extension does, which rounds each number of the wind, too: what
+    # is pressed to the head by it leaves it a step earlier or later.
+    left = near(found, known, 64 * apart / 100, "all frames")
     print(f"measured: a groom of Blender: {left * 1000:.2g} mm apart over {way * 100:.0f} cm; a rounding of the hair: {apart * 10:.2g} mm")
 
 
