@@ -7,7 +7,7 @@ use glam::Vec3;
 use crate::body::Body;
 use crate::chance::Chance;
 use crate::error::SettingError;
-use crate::locks::{Lock, Locks, Own, Variation};
+use crate::locks::{Lock, LockVariation, Locks, Own};
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
 use crate::settings;
@@ -37,7 +37,7 @@ settings! {
         pub pseudo_force: bool = false => "Pseudo-force";
         /// How locks differ, so that they part in the wind.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub variation: Option<Variation> = None => "Variation", open "all alike";
+        pub variation: Option<LockVariation> = None => "LockVariation", open "all alike";
         /// A band that ties hair: strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub tie: Option<Tie> = None => "Tie", open "no band";

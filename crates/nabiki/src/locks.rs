@@ -56,7 +56,7 @@ settings! {
     /// A lock is the hair of a clump, as the groom has them, and keeps its ways in every take: they are drawn from its place on the head and
     /// the seed. Hair that takes n times the air is pushed n times as hard by the wind, and settles n times as fast.
     #[derive(Copy)]
-    pub struct Variation in "free.variation" {
+    pub struct LockVariation in "free.variation" {
         /// How much the air that a lock takes differs from lock to lock: the standard deviation of its logarithm. 0.35 lets a sixth of the locks
         /// take 1.4 times the air, or more, and a sixth 0.7 times, or less.
         pub air: f32 = 0.35 => "Air", least 0.0, most 1.0;
@@ -133,7 +133,7 @@ impl Own {
     }
 }
 
-impl Variation {
+impl LockVariation {
     /// How a strand of this lock differs, of which chance is given.
     pub fn of(&self, lock: &Lock, strand: Chance) -> Own {
         let [lock, strand] = [lock.chance, strand].map(|chance| chance.again(self.seed));
@@ -162,7 +162,7 @@ mod tests {
     /// Over many periods each sine has a mean of 0 and a mean square of 1/2, and they are apart in frequency.
     #[test]
     fn flutter_is_as_strong_as_asked_for_and_never_stronger_than_its_bound() {
-        let variation = Variation { flutter: 0.3, flutter_frames: 20.0, ..Variation::default() };
+        let variation = LockVariation { flutter: 0.3, flutter_frames: 20.0, ..LockVariation::default() };
         let own = variation.of(&Locks::default().of(Vec3::X), Chance::at_point(0, Vec3::X));
         let frames = 100_000;
         let (mut mean, mut square, mut most) = ([0.0; 4], [0.0; 4], 0.0_f64);

@@ -14,7 +14,7 @@ use nabiki::body::{Body, BodyWay, Contact};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper, Timeline, VectorWidth};
 use nabiki::field::Field;
 use nabiki::free_form::{FreeMotion, NeighbourForces, Neighbours};
-use nabiki::locks::Variation;
+use nabiki::locks::LockVariation;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::{Pose, Profile, Strands};
 use nabiki_groom::bust;
@@ -31,7 +31,7 @@ fn crowded() -> Dynamics {
     let another = Body::new("body[0]", bust().skin().clone(), BodyWay::InWorld(beside.into()), head.contact);
     let mut free = FreeMotion { bodies: vec![head, another], rest_pose: way_of_a_head(0)[0], ..Default::default() };
     free.form.stiffness = Profile::RootToTip(vec![150.0, 40.0, 60.0]);
-    free.form.variation = Some(Variation::default());
+    free.form.variation = Some(LockVariation::default());
     free.neighbours = Some(Neighbours::new(NeighbourForces::default(), Arc::new(hair(24, 18))));
     let motion = Motion { frames: FRAMES, ..Motion::default() };
     Dynamics { motion, pseudo_force: PseudoForce::off(), form: Form::Free(free), ..gust() }

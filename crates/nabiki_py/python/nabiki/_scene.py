@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import reprlib
 from collections.abc import Callable, Iterable, Mapping
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from ._attributes import no_attribute
@@ -28,7 +29,8 @@ Body = File | Arrays | Mapping[str, Any]
 def _interval(place: int, force: Any) -> dict[str, Any]:
     """An interval of the wind as a scene has it."""
     try:
-        through, vector, *more = force
+        # No more than it may have, of what may never end.
+        through, vector, *more = islice(force, 4)
         (speed,) = more or [None]
     except (TypeError, ValueError):
         value = " ".join(reprlib.repr(force).split())

@@ -2,7 +2,7 @@
 
 use nabiki::dynamics::{Dynamics, earth_gravity, stiffness_of, substeps};
 use nabiki::free_form::{FreeForm, Tie};
-use nabiki::locks::Variation;
+use nabiki::locks::LockVariation;
 use nabiki::setting::{Place, refused};
 use nabiki::{Profile, SettingError, settings};
 
@@ -32,7 +32,7 @@ settings! {
         pub pseudo_force: bool => of FreeForm;
         /// How locks differ, so that they part in the wind.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub variation: Option<Variation> => of FreeForm, open "all alike";
+        pub variation: Option<LockVariation> => of FreeForm, open "all alike";
         /// A band that ties hair: strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub tie: Option<Tie> => of FreeForm, open "no band";
