@@ -6,9 +6,17 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from ._table import Arrays, File, Matrices, Numbers, Table, Tables
-from .hair import Variation
 
-__all__ = ["Contact", "Disturbance", "FreeSettings", "Motion", "NeighbourForces", "PseudoForce", "Tie"]
+__all__ = [
+    "Contact",
+    "Disturbance",
+    "FreeSettings",
+    "LockVariation",
+    "Motion",
+    "NeighbourForces",
+    "PseudoForce",
+    "Tie",
+]
 
 
 class Motion(Table):
@@ -206,12 +214,12 @@ class FreeSettings(Table):
         self._set('pseudo_force', value)
 
     @property
-    def variation(self) -> Variation:
+    def variation(self) -> LockVariation:
         """How locks differ, so that they part in the wind."""
-        return Variation(self._scene, self._key_of('variation'))
+        return LockVariation(self._scene, self._key_of('variation'))
 
     @variation.setter
-    def variation(self, value: Variation | Mapping[str, Any] | None) -> None:
+    def variation(self, value: LockVariation | Mapping[str, Any] | None) -> None:
         self._set('variation', value)
 
     @property
@@ -234,6 +242,108 @@ class FreeSettings(Table):
     @substeps.setter
     def substeps(self, value: int | None) -> None:
         self._set('substeps', value)
+
+
+class LockVariation(Table):
+    """How locks differ, so that they part in the wind instead of moving as one.
+
+    A lock is the hair of a clump, as the groom has them, and keeps its ways in every take: they are drawn from its
+    place on the head and the seed. Hair that takes n times the air is pushed n times as hard by the wind, and settles
+    n times as fast.
+    """
+
+    __slots__ = ()
+
+    @property
+    def air(self) -> float:
+        """How much the air that a lock takes differs from lock to lock: the standard deviation of its logarithm. 0.35
+        lets a sixth of the locks take 1.4 times the air, or more, and a sixth 0.7 times, or less. Number, 0 to 1;
+        default: 0.35.
+        """
+        value: float = self._get('air')
+        return value
+
+    @air.setter
+    def air(self, value: float | None) -> None:
+        self._set('air', value)
+
+    @property
+    def flutter(self) -> float:
+        """How much the wind on a lock swells and turns by itself, in strength and in radians (both root mean square), in
+        a rhythm of the lock's own. This is what parts locks in an even wind. Number, 0 to 0.5; default: 0.3.
+        """
+        value: float = self._get('flutter')
+        return value
+
+    @flutter.setter
+    def flutter(self, value: float | None) -> None:
+        self._set('flutter', value)
+
+    @property
+    def flutter_frames(self) -> float:
+        """Frames in which it does so once, about. Number, 2 to 10000 (frames); default: 24."""
+        value: float = self._get('flutter_frames')
+        return value
+
+    @flutter_frames.setter
+    def flutter_frames(self, value: float | None) -> None:
+        self._set('flutter_frames', value)
+
+    @property
+    def stiffness(self) -> float:
+        """How much stiffness differs from lock to lock: the standard deviation of its logarithm. Number, 0 to 1;
+        default: 0.2.
+        """
+        value: float = self._get('stiffness')
+        return value
+
+    @stiffness.setter
+    def stiffness(self, value: float | None) -> None:
+        self._set('stiffness', value)
+
+    @property
+    def strands(self) -> float:
+        """How much the strands of a lock differ among themselves, as a part of how locks differ. What is much frays
+        locks to frizz. Number, 0 to 1; default: 0.2.
+        """
+        value: float = self._get('strands')
+        return value
+
+    @strands.setter
+    def strands(self, value: float | None) -> None:
+        self._set('strands', value)
+
+    @property
+    def flyaways(self) -> float:
+        """Share of strands that take three times the air. Number, 0 to 1; default: 0.02."""
+        value: float = self._get('flyaways')
+        return value
+
+    @flyaways.setter
+    def flyaways(self, value: float | None) -> None:
+        self._set('flyaways', value)
+
+    @property
+    def size(self) -> float | None:
+        """Width of a lock at the scalp. Left open, that of the groom's clumps, so that clumps are locks; 1.2 cm for hair
+        of a file. Number, 0.1 to 100 (cm); default: the groom's clumps.
+        """
+        value: float | None = self._get('size')
+        return value
+
+    @size.setter
+    def size(self, value: float | None) -> None:
+        self._set('size', value)
+
+    @property
+    def seed(self) -> int:
+        """Another number, other locks that catch the wind. Whole number; default: 0."""
+        value: int = self._get('seed')
+        return value
+
+    @seed.setter
+    def seed(self, value: int | None) -> None:
+        self._set('seed', value)
 
 
 class Tie(Table):
