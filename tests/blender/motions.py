@@ -45,14 +45,19 @@ def test_a_groom_of_blender_moves_as_the_command_moves_it(command, shared):
         axis = np.array(wind.matrix_world.to_3x3().col[2])
         forces.append((frame - 1, wind.field.strength * axis))
     toml = commands.made(command, hair, forces, centre())
-    found = all_frames(simulated(hair, 10**6))
+    preview = simulated(hair, 10**6)
+    found = all_frames(preview)
     known, apart = commands.rounding(command, toml, command.folder / "hair.hair")
     known = commands.in_blender(known, centre())
     way = np.abs(known[-1] - known[0]).max()
     assert way > 0.02, "hardly anything moves"
-    # The same law of growth, once for what the test rounds and once for what the extension does, which rounds each number of the wind, too: what
-    # is pressed to the head by it leaves it a step earlier or later.
-    left = near(found, known, 64 * apart / 100, "all frames")
+    # What the test rounds otherwise than the extension a strand hardly feels, but where it is pressed to the head.
+    apart_most = np.quantile(np.abs(found - known), 0.99)
+    assert apart_most < 1e-5, f"99 of 100 points: {apart_most:.2g} m apart"
+    # With the very files that the extension makes the command's points are the same but for their own roundings.
+    assert bpy.ops.nabiki.write_scene(filepath=str(command.folder / "written.toml"), name=hair.name) == {"FINISHED"}
+    same = command.frames("written.toml")
+    left = near(found, commands.in_blender(same, np.array(preview.location, np.float64)), 0, "a groom as it is written")
     print(f"measured: a groom of Blender: {left * 1000:.2g} mm apart over {way * 100:.0f} cm; a rounding of the hair: {apart * 10:.2g} mm")
 
 

@@ -37,7 +37,7 @@ settings! {
         pub pseudo_force: bool = false => "Pseudo-force";
         /// How locks differ, so that they part in the wind.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub variation: Option<LockVariation> = None => "LockVariation", open "all alike";
+        pub variation: Option<LockVariation> = None => "Locks", open "all alike";
         /// A band that ties hair: strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub tie: Option<Tie> = None => "Tie", open "no band";
@@ -144,7 +144,7 @@ pub struct FreeMotion {
     pub bodies: Vec<Body>,
     /// Hair against hair, if any.
     pub neighbours: Option<Neighbours>,
-    /// Where locks are, for [`FreeForm::variation`]; its `size` is not asked here.
+    /// Where locks are, for [`FreeForm::variation`], whose own `size` is for scenes.
     pub locks: Locks,
     /// The head's pose in frame 0, under which hair at rest carries its weight.
     pub rest_pose: Pose,
