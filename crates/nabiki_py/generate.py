@@ -213,7 +213,12 @@ def flat(schema):
 def blender(schema):
     """The module of the extension: what a property of each setting is made with."""
     tables = {table.key: schema.kinds(table)[0][1] for table in schema.tables if not table.many}
-    lines = ['"""Settings as the scene declares them. Written by crates/nabiki_py/generate.py."""', "", "SETTINGS = {"]
+    lines = [
+        "# SPDX-License-Identifier: GPL-3.0-or-later",
+        '"""Settings as the scene declares them. Written by crates/nabiki_py/generate.py."""',
+        "",
+        "SETTINGS = {",
+    ]
     for key in SHOWN:
         table, name = key.split(".")
         setting = tables[table][name]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the extension: the sources beside this file and wheels of the package nabiki, in one .zip that Blender installs.
 
 python3 integrations/blender/build.py                          builds the wheel for this machine
@@ -68,8 +69,10 @@ def build(wheels, out):
     part = archive.with_suffix(".part")
     files = {"blender_manifest.toml": text.encode()}
     files |= {source.name: source.read_bytes() for source in sorted(SOURCE.glob("*.py"))}
-    files |= {name: (ROOT / name).read_bytes() for name in ["LICENSE-MIT", "LICENSE-APACHE"]}
+    files["LICENSE"] = (HERE / "LICENSE").read_bytes()
     files |= {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels}
+    # The wheels have a licence of their own, which goes with them.
+    files |= {f"wheels/{name}": (ROOT / name).read_bytes() for name in ["LICENSE-MIT", "LICENSE-APACHE"]}
     with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as into:
         for name, data in files.items():
             into.writestr(zipfile.ZipInfo(name, DATE), data, zipfile.ZIP_DEFLATED)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Nabiki: hair that goes where you want it in the wind."""
 
 from . import jobs, operators, panels, playing, properties

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Attributes of curves as arrays, and back."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's axes and nabiki's: there x goes where the face looks, y up and z to the right of who looks."""
 
 import numpy as np

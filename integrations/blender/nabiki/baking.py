@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The whole moving hair in a file, and the object that reads it."""
 
 from pathlib import Path

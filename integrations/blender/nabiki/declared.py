@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Settings as the scene declares them. Written by crates/nabiki_py/generate.py."""
 
 SETTINGS = {

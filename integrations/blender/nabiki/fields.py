@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Force fields of Blender as fields of nabiki, by the table of docs/fields.md."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Hair out of Blender's curves, and curves of Blender out of hair."""
 
 from dataclasses import dataclass, field

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Long work: step by step while the window goes on, with progress, until it has ended or somebody pressed Esc."""
 
 import threading

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes of Blender as arrays, and how rigid things go through the frames."""
 
 import numpy as np

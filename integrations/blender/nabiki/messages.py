@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a person is told: one line each, in the words of the panels."""
 
 import re

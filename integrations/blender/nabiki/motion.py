@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The steps from an object of curves to its motion."""
 
 import shutil

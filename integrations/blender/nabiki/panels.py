@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The panels: settings in the Physics tab of the hair, buttons in the sidebar of the 3D Viewport as well."""
 
 import textwrap

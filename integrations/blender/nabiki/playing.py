@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Motions in memory, and the preview that shows them as the time line is scrubbed.
 
 A motion is kept under a number for all that it was computed from. What is shown is looked up by that number, so that a motion

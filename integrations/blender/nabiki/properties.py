@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What belongs to an object of curves: kept in the .blend file, undone with all else."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What decides a motion, read from Blender frame by frame."""
 
 import zlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A sample of Blender as a scene of nabiki: the files that it names, and its settings."""
 
 import struct

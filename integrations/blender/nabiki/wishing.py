@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Curves that were moved by hand as wishes, and the wind that meets them."""
 
 import nabiki
