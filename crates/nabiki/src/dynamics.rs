@@ -5,8 +5,8 @@
 //! frames. [`Timeline`] is the fast twin with all its frames at hand.
 //!
 //! [`Form`] chooses between two sets of equations: the paper's (docs/equations.md) and the free form
-//! (docs/motion-forms.md). Only this file, `reference.rs`, `runner.rs`, `stability.rs`, `standing.rs`, `tangents.rs` and
-//! the solver ask which form it is.
+//! (docs/motion-forms.md). Files that ask which form it is: this one, `reference.rs`, `runner.rs`, `simulation.rs`,
+//! `stability.rs`, `standing.rs`, `tangents.rs`, and those of the solver. No file below `paper/` or `free/` does.
 //!
 //! | file | holds |
 //! |---|---|
