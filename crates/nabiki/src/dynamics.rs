@@ -3,6 +3,22 @@
 //! [`Reference`] is the specification: scalar, f64, to be read beside the paper. [`Simulation`] is its fast twin:
 //! f32, sixteen strands to a block, all cores. Both take the same [`Dynamics`] and [`FrameInput`]s and give the same
 //! frames. [`Timeline`] is the fast twin with all its frames at hand.
+//!
+//! [`Form`] chooses between two sets of equations: the paper's (docs/equations.md) and the free form
+//! (docs/motion-forms.md). Files that ask which form it is: this one, `reference.rs`, `runner.rs`, `simulation.rs`,
+//! `stability.rs`, `standing.rs`, `tangents.rs`, and those of the solver. No file below `paper/` or `free/` does.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `reference.rs`, `runner.rs` | the f64 twin and the fast twin of either form |
+//! | `paper/`, `free/` | the equations of each form |
+//! | `gain.rs` | inertia and gain of the paper's form; the acceleration A of the free form; places along a strand |
+//! | `pull.rs`, `stability.rs` | what pulls on hair besides the field; the check that refuses what is too strong |
+//! | `tangents.rs`, `air.rs` | strands of the f64 twins with derivatives, for the solver, and the field that they ask |
+//! | `state.rs` | saved states, as bytes with a checksum |
+//! | `sweep.rs` | all blocks, on all cores, through any number of frames |
+//! | `block.rs`, `row.rs`, `transpose.rs` | sixteen strands side by side, and the way of their points into [`Strands`] |
+//! | `field_frame.rs` | the field of one frame, asked for sixteen points at a time |
 
 mod air;
 mod block;

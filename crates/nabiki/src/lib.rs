@@ -8,6 +8,33 @@
 //! radians, time is counted in frames. Forces are directions with a strength, not newtons: only their product with
 //! the gain c_i of equation (8) moves hair.
 //!
+//! # Words
+//!
+//! | word | meaning |
+//! |---|---|
+//! | strand, segment, root, tip | a polyline of hair; one straight piece of it; its end on the skin; its free end |
+//! | joint, node | where two segments meet, the first one at the root; the end of a segment |
+//! | groom | hair at rest with its attributes |
+//! | guide | one of the first 256 strands of the farthest-first order, see [`subset`] |
+//! | clump, lock | neighbouring strands gathered toward one line; a clump as it moves, see [`locks`] |
+//! | F | the unit of force: a direction with a strength, without a physical unit |
+//! | field, keyframe | a force at every point and frame; a vector and the last frame that feels it |
+//! | form | the equations that move hair: the paper's or the free form's |
+//! | gain c | what turns a force into an increment of angle, equation (8); the paper's form |
+//! | push A | the acceleration of a node under a force of 1; the free form |
+//! | E, C, `shell` | the head ellipsoid; E times `shell`, in which the pseudo-force may act |
+//! | polar axis | the axis of the angle theta: the vertical of frame 0, carried by the head |
+//! | inertia length floor | shorter hair has the inertia of hair of this length |
+//! | settle, drag | frames in which a swing falls to 1/e; how far a moving head leaves hair behind |
+//! | substep | one of the steps that the free form divides a frame into |
+//! | body, clearance | what hair does not enter; how far a node is kept from its skin |
+//! | gap | a lower bound of a node's distance to the nearest body, which saves asking |
+//! | fold | a place that a ball of 3 cm does not reach, as behind an ear; filled where hair touches the head |
+//! | carrier | a strand that leaves density and velocity in the grid that its neighbours feel |
+//! | wish, nail | what should be where in a frame; what should stay, see [`solve`] |
+//! | unknown | what may change to meet a wish |
+//! | twin | one of the two steppers of a form: the readable f64 one and the fast one |
+//!
 //! # Where to begin
 //!
 //! [`Head::from_mesh`] and [`Strands::push`] take a head and hair of one's own, the crate `nabiki_groom` grows some;

@@ -1,4 +1,6 @@
-//! The memory that reading one file may take, in sum.
+//! The memory that reading one file may take, in sum: [`Budget::LEAST`] bytes, and [`Budget::TIMES`] for each byte of the file.
+//!
+//! Every reader counts tables, names, arrays and copies of shared data here before it makes them.
 
 use std::cell::Cell;
 use std::fmt;
