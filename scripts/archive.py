@@ -19,12 +19,12 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-# Nothing is left beside the sources.
+# Leaves no compiled files among the sources.
 sys.dont_write_bytecode = True
 
 from version import ROOT, version  # noqa: E402
 
-BESIDE = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"]
+PAPERS = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"]
 SCENES = [".toml", ".obj", ".csv"]
 
 # One date for all files: the earliest that a .zip knows.
@@ -35,7 +35,7 @@ SECONDS = 315532800
 def contents(program, licences=None):
     """What goes into the archive: names, bytes, and whether it is a program."""
     files = [(program.name, program.read_bytes(), True)]
-    files += [(name, (ROOT / name).read_bytes(), False) for name in BESIDE]
+    files += [(name, (ROOT / name).read_bytes(), False) for name in PAPERS]
     if licences:
         files.append(("THIRD-PARTY.txt", licences.read_bytes(), False))
     scenes = sorted(path for path in (ROOT / "scenes").rglob("*") if path.suffix in SCENES)
@@ -115,7 +115,7 @@ def check():
             assert (inside / "THIRD-PARTY.txt").read_bytes() == b"licences"
             # Windows knows no rights.
             assert sys.platform == "win32" or (inside / program.name).stat().st_mode & 0o777 == 0o755
-            for expected in [*BESIDE, "scenes/gust.toml", "scenes/paper/gust.toml", "scenes/motion/hand.obj"]:
+            for expected in [*PAPERS, "scenes/gust.toml", "scenes/paper/gust.toml", "scenes/motion/hand.obj"]:
                 assert (inside / expected).read_bytes() == (ROOT / expected).read_bytes(), expected
             print(f"{archive.name}: {sum(path.is_file() for path in inside.rglob('*'))} files, as they should be")
 

@@ -18,7 +18,7 @@ import tempfile
 import venv
 from pathlib import Path
 
-# Nothing is left beside the sources.
+# Leaves no compiled files among the sources.
 sys.dont_write_bytecode = True
 
 import archive  # noqa: E402

@@ -12,13 +12,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-# Nothing is left beside the sources.
+# Leaves no compiled files among the sources.
 sys.dont_write_bytecode = True
 
 import archive  # noqa: E402
 from version import ROOT, version  # noqa: E402
 
-PAGES = [*archive.BESIDE, "ARCHITECTURE.md", "CONTRIBUTING.md"]
+PAGES = [*archive.PAPERS, "ARCHITECTURE.md", "CONTRIBUTING.md"]
 
 
 def pages(reference):

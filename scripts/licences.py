@@ -55,7 +55,7 @@ def texts(package):
 
 def listed(packages):
     """One text: the crates with their licences, then each different licence text once, with the crates that have it."""
-    lines = ["This program contains the following Rust crates, each under the licence beside it.", ""]
+    lines = ["This program contains the following Rust crates, each with its licence:", ""]
     users = {}
     for package in packages:
         title = f"{package['name']} {package['version']}"

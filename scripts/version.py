@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# Files beside Cargo.toml that state the version, each with the pattern of its line.
+# The other files that state the version, each with the pattern of its line.
 STATED = {
     "integrations/blender/nabiki/blender_manifest.toml": r'^version = "(.*)"$',
     "CITATION.cff": r'^version: "?([^"\n]*)"?$',
