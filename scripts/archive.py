@@ -22,7 +22,7 @@ from pathlib import Path
 # Leaves no compiled files among the sources.
 sys.dont_write_bytecode = True
 
-from version import ROOT, version  # noqa: E402
+from version import ROOT, version
 
 PAPERS = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"]
 SCENES = [".toml", ".obj", ".csv"]

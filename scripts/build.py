@@ -21,9 +21,9 @@ from pathlib import Path
 # Leaves no compiled files among the sources.
 sys.dont_write_bytecode = True
 
-import archive  # noqa: E402
-import licences  # noqa: E402
-from version import ROOT, version  # noqa: E402
+import archive
+import licences
+from version import ROOT, version
 
 PROGRAMS = {"nabiki_cli": "nabiki", "nabiki_studio": "nabiki-studio"}
 MOVED = """

@@ -15,8 +15,8 @@ from pathlib import Path
 # Leaves no compiled files among the sources.
 sys.dont_write_bytecode = True
 
-import archive  # noqa: E402
-from version import ROOT, version  # noqa: E402
+import archive
+from version import ROOT, version
 
 PAGES = [*archive.PAPERS, "ARCHITECTURE.md", "CONTRIBUTING.md"]
 
