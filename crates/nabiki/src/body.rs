@@ -16,14 +16,15 @@ use crate::settings;
 use crate::strands::bounds;
 
 settings! {
-    /// How hair and a body touch, in the free form.
+    /// How hair and a body touch in the free form.
     #[derive(Copy)]
     pub struct Contact where holds_what_lies_still {
-        /// How far from the skin nodes are kept. A node that lies closer at rest is kept where it lies.
+        /// Distance that nodes keep from the skin. A node that is closer at rest keeps its rest distance.
         pub margin: f32 = 0.1 => "Margin", unit "cm", least 0.0, most 5.0;
-        /// The part of a push that sliding hair loses of its speed along the skin (Coulomb).
+        /// Friction of sliding hair: the share of the push that it loses as speed along the skin (Coulomb).
         pub friction: f32 = 0.1 => "Friction", least 0.0, most 10.0;
-        /// The same for hair that does not slide, at least `friction`: it stays as long as what would move it is below this part of the push.
+        /// Friction of hair that does not slide, at least `friction`. Hair starts to slide when the force along the
+        /// skin exceeds this share of the push.
         pub static_friction: f32 = 0.15 => "Static friction", least 0.0, most 10.0;
     }
 }

@@ -443,7 +443,7 @@ fn what_a_motion_file_does_not_say_is_asked_for_one_by_one() {
 #[test]
 fn the_schema_is_printed_for_people_and_as_json_schema() {
     let text = succeed(&["schema"]);
-    assert!(text.contains("\nmotion.frame_rate (a second; above 0; default 24): Frames in a second"), "{text}");
+    assert!(text.contains("\nmotion.frame_rate (per second; above 0; default 24): Frames per second"), "{text}");
     assert!(text.contains("\nfan.position (cm; -1000000 to 1000000; must be given): "), "{text}");
     let json: serde_json::Value = serde_json::from_str(&succeed(&["schema", "--json"])).unwrap();
     let tables = json["properties"].as_object().unwrap();
