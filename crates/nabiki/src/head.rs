@@ -221,7 +221,7 @@ fn check_size(mesh: &Mesh, ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
         return Ok(());
     }
     let remedy = format!(
-        "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: mend head.unit",
+        "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: correct head.unit",
         HALF_AXES[0], HALF_AXES[1]
     );
     Err(refused_mesh(mesh, format!("a head of {size:.3e} cm"), &remedy))

@@ -326,7 +326,7 @@ fn a_render_says_what_changes_nothing_as_a_run_does() {
     let changes = [&SMALL[..], &free, &["--set", "picture.samples=8", "--set", "output.sheet=[0]"]].concat();
     let render = [&["render", GUST, "--frame", "2", "--out", &out][..], &changes].concat();
     let said = succeed(&render);
-    for line in ["  look    hair does not feel [pseudo_force]", "  look    picture.samples changes nothing"] {
+    for line in ["  warning hair does not feel [pseudo_force]", "  warning picture.samples changes nothing"] {
         assert!(said.contains(line), "{line}: {said}");
     }
     // Motion that is there already is not judged once more.

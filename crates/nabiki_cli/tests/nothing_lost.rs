@@ -237,7 +237,7 @@ fn what_is_not_read_of_a_groom_is_said_once_whatever_is_made_of_it() {
     ] {
         let said = succeed(&folder, &format!("{words} {name}"));
         for line in ["material:binding of /h", "NurbsCurves /n: only BasisCurves are read"] {
-            let line = format!("  unread  of groom.usda: {line}\n");
+            let line = format!("  ignored in groom.usda: {line}\n");
             assert_eq!(said.matches(&line).count(), 1, "{words} {name}: {said}");
         }
         // A format is to blame for nothing that never came to it.
@@ -267,8 +267,7 @@ fn meshes_of_a_bodys_file_that_do_not_show_are_said_as_those_of_a_heads_are() {
     let ball = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/motion/ball.obj");
     fs::write(folder.path().join("own.toml"), scene.replace("scenes/ball.obj", ball)).unwrap();
     let said = succeed(&folder, "simulate own.toml -o m.nabiki --strands 9");
-    let line =
-        "\n  body[1] not read of its file: mesh /low, which does not show: visibility of /low is \"invisible\"\n";
+    let line = "\n  body[1] ignored in its file: mesh /low, which does not show: visibility of /low is \"invisible\"\n";
     assert!(said.contains(line) && said.matches("not read").count() == 1, "{said}");
 }
 
@@ -420,7 +419,7 @@ fn what_a_file_says_of_its_space_is_not_overridden() {
     for (output, option) in [("x.hair", "--unit=m"), ("y.hair", "--z-up"), ("x.abc", "--z-up")] {
         let said = succeed(&folder, &format!("convert hair.hair {output} {option}"));
         let option = option.trim_end_matches("=m");
-        assert!(said.contains(&format!("  look    {option} changes nothing: {output} names neither")), "{said}");
+        assert!(said.contains(&format!("  warning {option} changes nothing: {output} names neither")), "{said}");
     }
     // What agrees says nothing new.
     succeed(&folder, "convert z.usda same.usdc --z-up");

@@ -39,7 +39,7 @@ fn a_layer_does_not_lie_over_curves_of_which_some_are_no_strands() {
     let hair = curves("int[] curveVertexCounts = [1, 2]\n point3f[] points = [(9, 3, 0), (9, 1, 0), (12, 1, 0)]");
     let folder = folder(&hair);
     let said = succeed(&folder, "simulate scene.toml -o m.nabiki");
-    assert!(said.contains("  unread  of groom.usda: 1 curves of fewer than two points\n"), "{said}");
+    assert!(said.contains("  ignored in groom.usda: 1 curves of fewer than two points\n"), "{said}");
     for words in ["convert m.nabiki l.usda", "simulate scene.toml -o n.nabiki --export l.usda"] {
         let line = refuse(&folder, &format!("{words} --export-layer /h"));
         assert!(line.contains("l.usda: a layer would not fit the groom: 2 of its 3 points are used"), "{line}");
@@ -74,7 +74,7 @@ fn hair_that_begins_between_frames_says_where_it_goes() {
     );
     let folder = folder(&hair);
     let said = succeed(&folder, "convert groom.usda out.usda");
-    let line = "  unread  of groom.usda: the place of its samples between frames: 1001.500 goes out as frame 1002\n";
+    let line = "  ignored in groom.usda: the place of its samples between frames: 1001.500 goes out as frame 1002\n";
     assert!(said.contains(line), "{said}");
 }
 

@@ -138,7 +138,7 @@ fn frames_that_nabiki_did_not_draw_are_left_and_said() {
     }
     let said = run(1, "png_frames");
     assert!(said.contains("removed 1 files of frames after 1 from out/gust_frames"), "{said}");
-    let left = "look    out/gust_frames holds 2 files of frames after 1 that bear no mark of Nabiki's, 0003.png first";
+    let left = "warning out/gust_frames holds 2 files of frames after 1 that bear no mark of Nabiki's, 0003.png first";
     assert!(said.contains(left), "{said}");
     let said = run(1, "exr_frames");
     assert!(said.contains("removed 1 files of frames after 1 from out/gust_frames"), "{said}");

@@ -343,7 +343,7 @@ impl Scene {
     /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text, a field of a program's own.
     pub fn to_toml(&self) -> Result<String, SceneError> {
         if !self.field.own.is_empty() {
-            let line = "a file cannot hold a field that a program gave: take it out of the scene before it is written";
+            let line = "a file cannot hold a field from a program: remove it from the scene before you save it";
             return Err(self.origins.error("", Problem::Other(line.to_owned())));
         }
         let unwritable = |Unwritable(why): Unwritable| self.origins.error("", Problem::Other(why));

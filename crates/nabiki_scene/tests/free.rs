@@ -335,7 +335,7 @@ fn what_comes_after_the_last_frame_is_said_unless_fewer_frames_are_tried() {
         let built = Scene::parse(&text, Path::new("s.toml"), overrides).unwrap().build(Shown::First(2)).unwrap();
         built.advice().iter().map(ToString::to_string).collect()
     };
-    let after = "felt first in frame 6, and the last is motion.frames = 5";
+    let after = "it is first felt in frame 6, but the last frame is motion.frames = 5";
     assert_eq!(said(9, "", &[]), [format!("force[1] changes nothing: {after}")]);
     let third = "[[force]]\nthrough = 12\nvector = [0, 0, 0]\n";
     assert_eq!(said(9, third, &[]), [format!("force[1] and what comes after it change nothing: {after}")]);

@@ -148,7 +148,10 @@ fn fewer_strands_than_the_scene_has_are_the_first_of_them() {
 fn where_no_hair_can_grow_the_ellipsoid_that_is_given_is_named() {
     let small = [("head.ellipsoid", "{ center = [0, 0, 0], half_axes = [1, 1, 1] }")];
     let refused = parse(GUST, &small).unwrap().build(Shown::First(2)).unwrap_err().to_string();
-    assert!(refused.contains("hair.hairline = no scalp: ") && refused.contains("or mend head.ellipsoid"), "{refused}");
+    assert!(
+        refused.contains("hair.hairline = no scalp: ") && refused.contains("or correct head.ellipsoid"),
+        "{refused}"
+    );
 }
 
 #[test]
@@ -478,7 +481,7 @@ fn what_is_tied_swings_as_hair_of_the_length_behind_its_tie() {
         .map(|strand| strand[tie.held(strand)..].windows(2).map(|w| w[0].distance(w[1])).sum())
         .collect();
     behind.sort_by(f32::total_cmp);
-    let line = format!("cm behind its tie; a frame is {} steps", free.form.steps());
+    let line = format!("cm beyond its tie; a frame is {} steps", free.form.steps());
     assert!(table.tied && table.to_string().contains(&line), "{table}");
     assert_eq!(table.length, behind[behind.len() / 2]);
 }

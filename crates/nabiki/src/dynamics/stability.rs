@@ -109,7 +109,7 @@ impl Named<'_> {
     fn strand(&self, s: usize, shapes: &[SegmentShape]) -> String {
         let number = self.ids.get(s).map_or(s, |&id| id as usize);
         let moving: f64 = shapes.iter().filter(|shape| shape.gain > 0.0).map(|shape| shape.length).sum();
-        let behind = if shapes.iter().any(|shape| shape.gain == 0.0) { " behind its tie" } else { "" };
+        let behind = if shapes.iter().any(|shape| shape.gain == 0.0) { " beyond its tie" } else { "" };
         format!("{} {number} ({moving:.2} cm long{behind})", self.name)
     }
 }

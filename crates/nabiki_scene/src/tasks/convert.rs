@@ -265,8 +265,8 @@ fn lost_pose(pose: &Pose) -> String {
     let [x, y, z] = pose.position_cm.to_array();
     let (axis, angle) = pose.rotation.to_axis_angle();
     format!(
-        "the head's pose: the points are those of a head that stands still at the origin; in this frame it is at ({x}, {y}, \
-         {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3}), as .usda, .usdc and .abc have it",
+        "the head's pose: the points are those of a head at the origin without rotation. In this frame it is at ({x}, {y}, \
+         {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3}). Use .usda, .usdc or .abc to keep the pose",
         angle.to_degrees(),
         axis.x,
         axis.y,
