@@ -295,7 +295,7 @@ fn a_preview_says_that_the_whole_would_be_refused() {
     for (last, said_so) in [(0.25, true), (5.0, false)] {
         fs::write(path(&folder, "hair.usda"), hair(last)).unwrap();
         let said = succeed(&["preview", &file, "--strands", "4", "--out", &out]);
-        let line = "4 strands of 9 are moved; all of them would be refused: ";
+        let line = "simulates 4 of 9 strands; nabiki would refuse all of them: ";
         assert_eq!(said.contains(line), said_so, "{said}");
         if said_so {
             let refused = refuse(&["simulate", &file, "-o", &path(&folder, "m.nabiki")], folder.path());
@@ -312,7 +312,7 @@ fn a_preview_of_more_strands_than_there_are_is_refused_where_their_number_is_giv
     let few =
         ["preview", GUST, "--out", &out, "--frames", "1", "--set", "hair.strands=20", "--set", "output.sheet=[0]"];
     let line = refuse(&[&few[..], &["--strands", "21"]].concat(), folder.path());
-    assert!(line.contains("21 strands are asked for and the scene has 20"), "{line}");
+    assert!(line.contains("21 strands requested, but the scene has 20"), "{line}");
     let cache = refuse(&[&few[..], &["--cache", &path(&folder, "c.usdc")]].concat(), folder.path());
     assert!(cache.trim_end().ends_with("c.usdc: a motion cache ends in .nabiki; choose another name"), "{cache}");
     assert!(succeed(&few).contains("20 strands"));

@@ -29,7 +29,7 @@ fn hair_whose_strands_come_and_go_is_refused_with_the_frame_in_which_they_do() {
     );
     let folder = folder(&hair);
     let line = refuse(&folder, "convert groom.usda out.usdc");
-    let said = "nabiki: groom.usda: frame 1 has 2 points of 1 strands, frame 0 4 points of 2 strands: moving hair keeps its strands:";
+    let said = "nabiki: groom.usda: frame 1 has 2 points of 1 strands, frame 0 4 points of 2 strands: the number of strands must not change:";
     assert!(line.starts_with(said) && line.contains("--frame N"), "{line}");
     succeed(&folder, "convert groom.usda out.usdc --frame 1");
 }

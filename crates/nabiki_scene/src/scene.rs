@@ -266,11 +266,13 @@ impl Scene {
         let refused = |remedy: &str| Err(SettingError::new(format!("force[{j}].speed"), speed, remedy));
         if self.form == FormChoice::Paper {
             return refused(
-                "hair of the paper's form is carried by no air: set motion.form = \"free\", or give vector the strength",
+                "the paper's form has no air to carry hair: set motion.form = \"free\", or give the strength in vector",
             );
         }
         if self.free.settle.values().iter().all(Amount::is_zero) {
-            return refused("without air, free.settle = 0, no wind carries hair: give settle, or vector the strength");
+            return refused(
+                "with free.settle = 0 there is no air to carry hair: give settle, or give the strength in vector",
+            );
         }
         Ok(())
     }

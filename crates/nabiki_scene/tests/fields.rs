@@ -121,11 +121,11 @@ fn fields_without_anything_to_act_on_are_refused() {
     );
     assert_eq!(
         refused(&format!("{bare}[flow]\n")),
-        "fields.toml:2: flow = without wind: it leads [[force]] and [body_wind] round the head: give one, or remove [flow]"
+        "fields.toml:2: flow = without wind: it leads [[force]] and [body_wind] around the head: give one, or remove [flow]"
     );
     assert_eq!(
         refused(&format!("{bare}[body_wind]\n")),
-        "fields.toml:2: body_wind = without motion: it comes from the head's way: give head.motion, or remove [body_wind]"
+        "fields.toml:2: body_wind = without motion: it needs a moving head: give head.motion, or remove [body_wind]"
     );
 }
 

@@ -192,8 +192,7 @@ fn bodies_that_are_none_are_refused() {
     );
     assert_eq!(
         refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nwith_head = true\nmotion = { file = \"short.csv\" }"),
-        "free.toml:13: body[0].with_head = true: a body that goes with the head has no motion of its own: remove one of the \
-         two"
+        "free.toml:13: body[0].with_head = true: a body that moves with the head cannot have its own motion: remove one of the two"
     );
     assert_eq!(
         refused(

@@ -188,7 +188,7 @@ fn a_new_scene_about_a_head_that_a_joint_carries_proposes_its_motion() {
     let (scene, head) = (folder.path().join("new.toml"), folder.path().join("man.glb"));
     let mut advised = Advised::default();
     new(&scene, &NewOptions { head: Some(head), ..NewOptions::default() }, &mut advised).unwrap();
-    let said = "skull moves the head in man.glb, which stands still here: give head.motion = { file = \"man.glb\", node = \"skull\", \
+    let said = "skull moves the head in man.glb, but the head does not move here: give head.motion = { file = \"man.glb\", node = \"skull\", \
                 facing = \"+z\", bind_at_start = true }";
     assert!(advised.0.iter().any(|line| line == said), "{:?}", advised.0);
     // Followed, it is not said again.

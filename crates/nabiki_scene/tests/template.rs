@@ -385,13 +385,13 @@ fn more_strands_than_a_file_has_are_refused() {
     assert_eq!(load(count, Shown::All).unwrap().strands().len(), count);
     let refused = load(count + 1, Shown::All).unwrap_err().to_string();
     let end = format!(
-        "hair.strands = {}: hair.obj has {count} strands: ask for fewer, or for all by leaving it out",
+        "hair.strands = {}: hair.obj has {count} strands: request fewer, or leave it out to use all",
         count + 1
     );
     assert!(refused.ends_with(&end), "{refused}");
     // There is nothing to grow more of.
     let shown = load(count, Shown::First(count + 1)).unwrap_err().to_string();
-    assert!(shown.ends_with("ask for fewer"), "{shown}");
+    assert!(shown.ends_with("request fewer"), "{shown}");
 }
 
 #[test]

@@ -46,7 +46,7 @@ impl Aims {
     pub fn new(problem: &Problem) -> Result<Self, SettingError> {
         let Problem { hair, wishes, dynamics, .. } = problem;
         if wishes.is_empty() {
-            let remedy = "there is nothing to solve for: give a wish";
+            let remedy = "nothing to solve for: give a wish";
             return Err(SettingError::new("wish", "none", remedy));
         }
         for (i, wish) in wishes.iter().enumerate() {
@@ -255,7 +255,7 @@ fn check(wish: &Wish, i: usize, problem: &Problem, frames: u32) -> Result<(), Se
     let refused =
         |key: &str, value: String, remedy: String| Err(SettingError::new(format!("wish[{i}].{key}"), value, remedy));
     if !(1..=frames).contains(&wish.frame) {
-        let remedy = format!("the scene has frames 1 to {frames} in which hair moves");
+        let remedy = format!("hair moves in frames 1 to {frames} of the scene");
         return refused("frame", wish.frame.to_string(), remedy);
     }
     if !(wish.weight.is_finite() && wish.weight > 0.0) {

@@ -265,7 +265,7 @@ fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynami
         Unknown::Vector(j) if j >= intervals => Err(SettingError::new("unknowns.vectors", j, there())),
         Unknown::Border(j) if j >= intervals => Err(SettingError::new("unknowns.borders", j, there())),
         Unknown::Border(j) if j + 1 == intervals => {
-            let remedy = "the last interval holds for good and meets no other: free the border of one before it";
+            let remedy = "the last interval has no border after it: free the border of an earlier one";
             Err(SettingError::new("unknowns.borders", j, remedy))
         }
         Unknown::Gust if wind.gust.is_none() => {

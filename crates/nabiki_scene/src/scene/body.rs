@@ -74,7 +74,7 @@ impl BodySettings {
             return refused(&at.key("mesh"), "nothing", "give the file of its mesh");
         }
         if self.with_head && self.motion.is_some() {
-            let remedy = "a body that goes with the head has no motion of its own: remove one of the two";
+            let remedy = "a body that moves with the head cannot have its own motion: remove one of the two";
             return refused(&at.key("with_head"), true, remedy);
         }
         check_placement(&Key::from(at).to_string(), self.unit, self.up, self.facing, self.origin)?;

@@ -95,7 +95,7 @@ impl FreeSettings {
     fn weight_bends_it(&self, at: &Place) -> Result<(), SettingError> {
         match self.stiffness.values().iter().find_map(Amount::quantity) {
             Some(length) if self.gravity.is_zero() => {
-                let remedy = "hair without gravity bends within no length: give gravity, or a number";
+                let remedy = "a bending length needs gravity: give gravity, or a number";
                 refused(&at.key("stiffness"), length, remedy)
             }
             _ => Ok(()),

@@ -195,7 +195,11 @@ impl GrownHair {
     fn is_not_too_much(&self, _: &Place) -> Result<(), SettingError> {
         let points = self.strands.checked_mul(self.segments.saturating_add(1));
         if points.is_none_or(|points| points > u32::MAX as usize) {
-            return Err(SettingError::new("hair.strands", self.strands, "more than 2^32 points in all: grow less"));
+            return Err(SettingError::new(
+                "hair.strands",
+                self.strands,
+                "more than 2^32 points in total: reduce strands or segments",
+            ));
         }
         Ok(())
     }
