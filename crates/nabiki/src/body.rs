@@ -198,7 +198,7 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     let [low, high] = bounds(&mesh.positions);
     let side = |cm: f32| if cm < 1e5 { format!("{}", (1e3 * cm).round() / 1e3) } else { format!("{cm:.1e}") };
     let size = format!("{} cm", (high - low).to_array().map(side).join(" x "));
-    let sheet = "a sheet encloses no space, or next to none, so nothing can be told to be inside it: make it thicker";
+    let sheet = "a sheet encloses no space, or next to none, so it has no inside: make it thicker";
     let thickness = (high - low).min_element();
     if thickness <= 0.0 {
         return refused(&size, sheet);
@@ -208,8 +208,8 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     let samples = SkinDistance::count_samples(&mesh, low - AROUND_CM, high + AROUND_CM, spacing);
     if samples.is_nan() || samples > MOST_SAMPLES {
         let remedy = format!(
-            "is too large to be sampled every {spacing:.2} cm: check its unit, cut away what no hair comes near, or make a thin \
-             one thicker"
+            "is too large to be sampled every {spacing:.2} cm: check its unit, remove parts far from the hair, or make a \
+             thin body thicker"
         );
         return refused(&size, &remedy);
     }

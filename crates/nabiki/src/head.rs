@@ -71,8 +71,7 @@ impl Head {
         check_ellipsoid(&ellipsoid)?;
         check_size(&mesh, &ellipsoid)?;
         if !orientation.has_inside {
-            let remedy = "encloses no space, so nothing can be told to be inside it: give a head that is closed, or \
-                          open only where it is cut off";
+            let remedy = "encloses no space, so it has no inside: give a closed head, or one that is open only where it is cut off";
             return Err(refused_mesh(&mesh, "a sheet", remedy));
         }
         Ok(Self::assemble(mesh, ellipsoid, orientation))

@@ -104,8 +104,9 @@ impl Closed {
     pub fn check(&self, open: usize) -> Result<(), Problem> {
         match self.0.first().filter(|_| open == 0) {
             Some(path) => {
-                let line =
-                    format!("curves {path}: are closed, which no hair is: export them as open (nonperiodic) curves");
+                let line = format!(
+                    "curves {path}: are closed, which hair cannot be: export them as open (nonperiodic) curves"
+                );
                 Err(Problem(line))
             }
             None => Ok(()),
@@ -114,7 +115,7 @@ impl Closed {
 
     /// That they are left out, a phrase each.
     pub fn unread(&self) -> impl Iterator<Item = String> {
-        self.0.iter().map(|path| format!("curves {path}, which are closed, as no hair is"))
+        self.0.iter().map(|path| format!("curves {path}, which are closed, unlike hair"))
     }
 }
 

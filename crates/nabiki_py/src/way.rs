@@ -127,7 +127,7 @@ impl Way {
     pub fn of_bytes<'a>(&self, bytes: &'a [u8]) -> Result<(Self, u32, &'a [u8]), (String, String)> {
         let refused = |way_out: &str| Err((format!("{} bytes", bytes.len()), way_out.to_owned()));
         let Some(rest) = bytes.strip_prefix(&MAGIC) else {
-            return refused("are none that state() wrote");
+            return refused("were not written by state()");
         };
         let words =
             |bytes: &[u8]| -> Vec<u32> { bytes.as_chunks().0.iter().map(|&word| u32::from_le_bytes(word)).collect() };
@@ -139,10 +139,10 @@ impl Way {
         };
         let words = words(own);
         if checksum(&words[..count]) != words[count] {
-            return refused("are not as they were written: their checksum does not fit");
+            return refused("are altered: their checksum does not match");
         }
         if hair.len() / 4 != words[2] as usize {
-            return refused("are cut short, or have others behind them");
+            return refused("are cut short, or followed by others");
         }
         if bodies != self.bodies.len() {
             let way_out =

@@ -211,8 +211,7 @@ fn bodies_that_are_none_are_refused() {
     );
     assert_eq!(
         refused("solid.obj", "sheet.obj"),
-        "free.toml:12: body[0].mesh = 9 x 9 x 0 cm: a sheet encloses no space, or next to none, so nothing can be told to be \
-         inside it: make it thicker"
+        "free.toml:12: body[0].mesh = 9 x 9 x 0 cm: a sheet encloses no space, or next to none, so it has no inside: make it thicker"
     );
     assert_eq!(
         refused("solid.obj", "no/hand.obj"),

@@ -328,7 +328,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
                 &SCENE.replace("[motion]", "[free]\nsettle = 0\n\n[motion]"),
                 &WISHES.replace("vectors = [0]", "settle = true"),
             ),
-            "wish.toml:2: unknowns.settle = true: it is 0 everywhere, and is found",
+            "wish.toml:2: unknowns.settle = true: it is 0 everywhere, and the solver only scales it",
         ),
         (
             wish("vectors = [0]", "vektors = [0]"),
@@ -367,7 +367,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             refusal(&SCENE.replace("form = \"free\"", ""), &WISHES.replace("vectors = [0]", "settle = true")),
-            "wish.toml:2: unknowns.settle = true: hair of the paper's form has none",
+            "wish.toml:2: unknowns.settle = true: the paper's form has none",
         ),
     ];
     for (said, expected) in cases {

@@ -460,14 +460,16 @@ impl GroomReader for StageReader {
         // Between two keys each operation goes its own way, a parent's turn about another: whole codes follow it.
         if let [first, .., last] = times[..] {
             if last - first > MOST_FRAMES as f64 {
-                return Err(Problem(format!("{node}: moves from time code {first} to {last}, longer than is read")));
+                return Err(Problem(format!(
+                    "{node}: moves from time code {first} to {last}, longer than nabiki reads"
+                )));
             }
             times.extend((first.ceil() as i64..=last.floor() as i64).map(|code| code as f64));
             times.sort_by(f64::total_cmp);
             times.dedup_by(|a, b| (*a - *b).abs() <= SAME_TIME);
         }
         if times.len() > MOST_FRAMES {
-            return Err(Problem(format!("{node}: moves at {} time codes, more than is read", times.len())));
+            return Err(Problem(format!("{node}: moves at {} time codes, more than nabiki reads", times.len())));
         }
         if times.is_empty() {
             times.push(0.0);

@@ -212,13 +212,13 @@ fn splines_are_refused_as_such_in_transforms_and_said_elsewhere() {
 #[test]
 fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     let rein = curve("rein", "uniform token wrap = \"periodic\"");
-    let said = "curves /rein, which are closed, as no hair is".to_owned();
+    let said = "curves /rein, which are closed, unlike hair".to_owned();
     assert_eq!(curves(&format!("{rein}{}", curve("mane", ""))), (1, vec![said]));
     let mut both = reader(&format!("{rein}{}", curve("mane", "")));
     assert_eq!(both.contents().unwrap().curves, ["/mane"]);
     assert_eq!(both.prims().unwrap()[0].kind, PrimKind::Other("BasisCurves (closed)".to_owned()));
     let refused = reader(&rein).hair(0, None).unwrap_err().to_string();
-    assert_eq!(refused, "curves /rein: are closed, which no hair is: export them as open (nonperiodic) curves");
+    assert_eq!(refused, "curves /rein: are closed, which hair cannot be: export them as open (nonperiodic) curves");
 }
 
 #[test]

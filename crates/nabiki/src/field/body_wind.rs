@@ -59,7 +59,7 @@ impl BodyWindField {
         };
         let forces: Vec<Vec3> = (0..places.len()).map(force).collect();
         if let Some(n) = forces.iter().position(|force| !force.is_finite()) {
-            let remedy = "the head moves too fast for numbers: look at head.motion";
+            let remedy = "the head moves too fast: check head.motion";
             return Err(SettingError::new(format!("body_wind in frame {n}"), forces[n], remedy));
         }
         Ok(Self { forces })

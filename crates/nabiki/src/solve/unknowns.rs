@@ -251,13 +251,12 @@ fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynami
     };
     let free = |thing: &str, of: fn(&FreeForm) -> &Profile| match &dynamics.form {
         Form::Free(free) if of(&free.form).values().iter().all(|&value| value == 0.0) => {
-            let remedy =
-                "it is 0 everywhere, and is found as a factor, which leaves it 0: give it a strength, or remove this";
+            let remedy = "it is 0 everywhere, and the solver only scales it: give it a strength, or remove this";
             Err(SettingError::new(thing, true, remedy))
         }
         Form::Free(_) => Ok(()),
         Form::Paper => {
-            let remedy = "hair of the paper's form has none: set motion.form = \"free\", or leave it as it is";
+            let remedy = "the paper's form has none: set motion.form = \"free\", or remove this";
             Err(SettingError::new(thing, true, remedy))
         }
     };

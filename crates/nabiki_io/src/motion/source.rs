@@ -95,7 +95,7 @@ impl MotionSource {
             (self.positions != Interpolation::Cubic && is_clip, "positions"),
         ];
         if self.start_at_origin && self.bind_at_start {
-            let line = "start_at_origin and bind_at_start = true: the first frame cannot be both at the origin and where the file has it";
+            let line = "start_at_origin and bind_at_start = true: the first frame cannot be both at the origin and at its place in the file";
             return Err(Error::of_setting(line));
         }
         match useless.into_iter().find(|&(given, _)| given) {
