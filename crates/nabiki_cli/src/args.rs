@@ -442,8 +442,8 @@ pub struct Convert {
     /// cache is written in the unit, axes and place of its original file
     pub output: PathBuf,
 
-    /// Frame to take from a motion cache, a USD layer or an Alembic archive, counted from 0: of frames 1001 to 1005, `--frame 2` is
-    /// 1003. A file with a time line (USD, Alembic) keeps the number 1003
+    /// Frame to take from a motion cache, a USD layer or an Alembic archive, counted from 0: of frames 1001 to 1005, `--frame 2`
+    /// takes 1003. A file with a time line (USD, Alembic) keeps that number
     #[arg(long, value_name = "N", value_parser = frame)]
     pub frame: Option<u32>,
 

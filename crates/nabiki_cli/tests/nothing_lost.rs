@@ -267,7 +267,7 @@ fn meshes_of_a_bodys_file_that_do_not_show_are_said_as_those_of_a_heads_are() {
     let ball = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/motion/ball.obj");
     fs::write(folder.path().join("own.toml"), scene.replace("scenes/ball.obj", ball)).unwrap();
     let said = succeed(&folder, "simulate own.toml -o m.nabiki --strands 9");
-    let line = "\n  body[1] ignored in its file: mesh /low, which does not show: visibility of /low is \"invisible\"\n";
+    let line = "\n  body[1] ignored in its file: mesh /low, which is hidden: visibility of /low is \"invisible\"\n";
     assert!(said.contains(line) && said.matches("not read").count() == 1, "{said}");
 }
 

@@ -74,7 +74,7 @@ fn hair_that_begins_between_frames_says_where_it_goes() {
     );
     let folder = folder(&hair);
     let said = succeed(&folder, "convert groom.usda out.usda");
-    let line = "  ignored in groom.usda: the place of its samples between frames: 1001.500 goes out as frame 1002\n";
+    let line = "  ignored in groom.usda: the time of its samples between frames: 1001.500 is written as frame 1002\n";
     assert!(said.contains(line), "{said}");
 }
 

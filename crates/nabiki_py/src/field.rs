@@ -144,7 +144,7 @@ impl PythonField {
             let strength = force.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>().sqrt();
             if strength.is_nan() || strength > most {
                 let way_out = if strength.is_nan() {
-                    format!("is no number in frame {frame}: let the function return finite forces")
+                    format!("is not finite in frame {frame}: let the function return finite forces")
                 } else {
                     format!("is above its bound in frame {frame}: give Field(function, strongest=...) a larger one")
                 };

@@ -216,8 +216,7 @@ impl Scene {
     fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, OsString))> {
         let (py, scene) = (this.py(), this.get());
         if !scene.functions().is_empty() {
-            let line = "the fields of this scene are functions of Python, which stay in their process: \
-                        send a scene without them, and give it there its fields";
+            let line = "this scene has Python functions as fields, which cannot leave their process: send a scene without them, and add its fields there";
             return Err(error::line(py, line));
         }
         // The other process had better not find out what is wrong: a pool that cannot read what it was sent says nothing.
@@ -319,8 +318,8 @@ impl Scene {
         }
         Err(error::line(
             py,
-            "a scene file names files, and this scene has hair, meshes or motion of arrays: write them with \
-             nabiki.write_hair, with any writer of meshes, or as a table of poses, and give the scene these files",
+            "a scene file can only name files, but this scene has hair, meshes or motion from arrays: write them to files \
+             (hair with nabiki.write_hair), and give the scene those files",
         ))
     }
 }

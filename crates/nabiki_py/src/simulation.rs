@@ -70,7 +70,7 @@ impl Force {
             return Ok(force);
         }
         let way_out = format!(
-            "is above {most}, the strongest under which this hair can be stepped: give a weaker one, or a smaller \
+            "is above {most}, the strongest that this hair allows: give a weaker one, or a smaller \
              motion.time_step"
         );
         Err(error::argument(given.py(), "force of strength", strength, &way_out))

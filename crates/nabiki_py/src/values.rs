@@ -152,7 +152,7 @@ impl Walk {
                     .map(Value::Array)
             });
         }
-        Err(PyTypeError::new_err(format!("{key}: {} is no value of a setting", value.get_type().name()?)))
+        Err(PyTypeError::new_err(format!("{key}: {} is not a value of a setting", value.get_type().name()?)))
     }
 
     /// A dictionary as a table.

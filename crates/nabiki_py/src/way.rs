@@ -55,7 +55,7 @@ pub fn check_body(built: &BuiltScene, body: usize) -> Result<(), String> {
     match (&built.dynamics.form, number(felt(built), body)) {
         (_, Some(_)) => Ok(()),
         _ if body >= there => Err(format!("the scene has {there} bodies: scene.bodies has to name all of them")),
-        (Form::Paper, _) => Err("hair feels bodies in the free form alone: set motion.form = \"free\"".to_owned()),
+        (Form::Paper, _) => Err("hair feels bodies only in the free form: set motion.form = \"free\"".to_owned()),
         (Form::Free(_), _) => Err(format!("hair does not feel it: set body[{body}].solid = true, or give None")),
     }
 }

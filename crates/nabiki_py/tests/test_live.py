@@ -250,7 +250,7 @@ def test_threads_have_simulations_of_their_own():
 
     def wind(points, frame):
         for ask in (hair.step, hair.state, hair.copy, lambda: hair.restore(state)):
-            with pytest.raises(RuntimeError, match=r"each thread one of its own, scene\.simulate\(\)"):
+            with pytest.raises(RuntimeError, match=r"each thread its own, scene\.simulate\(\)"):
                 ask()
         refused.append(frame)
         return 0, 0, 0

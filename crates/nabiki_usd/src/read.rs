@@ -194,8 +194,8 @@ impl StageReader {
         let of = match self.layer.interpolation(prim, NAME)?.as_deref() {
             Some("faceVarying") => Uvs::OfCorners,
             Some("vertex" | "varying") => Uvs::OfVertices,
-            Some("uniform") => return Ok(Err("they are of faces, not of places".to_owned())),
-            _ => return Ok(Err("they are one pair for all, not of places".to_owned())),
+            Some("uniform") => return Ok(Err("they belong to faces, not to points".to_owned())),
+            _ => return Ok(Err("they are one pair for all points".to_owned())),
         };
         let type_name = self.layer.prims[prim].attributes[NAME].type_name.clone();
         let mut primvars = Primvars { layer: &mut self.layer, prim, time, frame: 0, is_bound: false };
@@ -203,7 +203,7 @@ impl StageReader {
             return Ok(Err(why.to_owned()));
         }
         let uvs = primvars.tuples::<2>("st")?;
-        Ok(uvs.map(|uvs| Some(of(uvs))).ok_or_else(|| format!("no pairs of numbers are in them ({type_name})")))
+        Ok(uvs.map(|uvs| Some(of(uvs))).ok_or_else(|| format!("they are not pairs of numbers ({type_name})")))
     }
 
     /// Paths of what can move a head: prims that move themselves, then joints; where there are none, any prim.
