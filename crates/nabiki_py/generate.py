@@ -36,7 +36,6 @@ MODULES = {
     "motion": ["motion", "free", "contact", "neighbours", "pseudo_force", "disturbance"],
     "head": ["head", "body"],
 }
-OPTIONAL_DOC = "Not there unless it is given."
 
 
 def types(schema):
@@ -164,8 +163,6 @@ def modules(schema):
                     # What may be a file's path is one, whichever kind is looked at first.
                     merged |= {name: of for name, of in settings.items() if name not in merged or of.schema.get("format") == "path"}
                 writer.table(CLASSES[key], table.doc, merged)
-            if "default" not in table.schema and not table.many:
-                table.doc += " " + OPTIONAL_DOC
             scene.append("\n".join(writer.setting("", table, repr(key))))
             if key not in ("head", "hair"):
                 tables_given.append((key, writer.type_of(table, "")[1]))

@@ -5,6 +5,7 @@ import subprocess
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
+OPTIONAL = "Off unless the scene has this table."
 
 
 class Setting:
@@ -52,6 +53,9 @@ class Schema:
         schema = json.loads(text)
         self.defs = schema["$defs"]
         self.tables = [Setting(key, table) for key, table in schema["properties"].items()]
+        for table in self.tables:
+            if "default" not in table.schema and not table.many:
+                table.doc += " " + OPTIONAL
 
     def kinds(self, table):
         """The structs that a table may be: their settings by key, and their docs."""

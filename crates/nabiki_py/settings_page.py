@@ -6,19 +6,25 @@ from schema import in_words
 
 INTRODUCTION = """# Settings
 
-Every setting of a scene, by the tables of its file, in the order in which files have them; all tables and nearly all keys may be left out. A setting is
-given in the scene (TOML), under its table, or on the command line as `--set KEY=VALUE`, as often as wanted, with the whole key and the value in
-TOML; an entry of a list of tables is counted from 0:
+This page lists every setting of a scene file, table by table in the order of the file. You can leave out all tables and nearly all keys.
+
+Set a value in the scene file (TOML), or for one run on the command line with `--set KEY=VALUE`. Write the full key and the value in TOML.
+Entries in a list of tables count from 0. You can repeat `--set`:
 
     nabiki simulate scene.toml -o m.nabiki --set motion.time_step=0.05 --set 'force.0.vector=[0,-100,0]' --set 'picture.hair.colour="red"'
 
-`nabiki info scene.toml` says what a scene holds. `nabiki schema` lists this page's settings in a terminal, and `nabiki schema --json` is a JSON Schema, by which
-editors complete and check scenes: put `#:schema scene.schema.json` into a scene's first line. Head space is in cm, y up, the face along +x, the
-character's right hand along +z. Paths are relative to the scene file. Lists stand in brackets, text and paths in quotes. This page is written by
-`python3 crates/nabiki_py/generate.py` from what the Rust structs declare: change the words there.
+- Head space is in cm, with y up, the face along +x and the character's right hand along +z.
+- Paths are relative to the scene file.
+- Lists are in brackets, texts and paths in quotes.
+- F is the unit of forces, the strength of the wind. It has no dimension: with the default settings, 30 is a breeze and 100 a strong wind.
+
+`nabiki info scene.toml` prints what a scene contains. `nabiki schema` prints these settings in a terminal. `nabiki schema --json` prints a
+JSON Schema, which lets editors complete and check scenes. Save it as `scene.schema.json` and make `#:schema scene.schema.json` the
+first line of the scene.
+
+`python3 crates/nabiki_py/generate.py` writes this page from the doc comments of the Rust structs. Change the text there.
 """
-NOT_THERE = "Not there unless it is given."
-HEAD = ["| key | value | default | what it is |", "|---|---|---|---|"]
+HEAD = ["| key | value | default | what it does |", "|---|---|---|---|"]
 
 
 class Page:
@@ -89,7 +95,5 @@ def page(schema):
     """The text of the page."""
     result = Page(schema)
     for table in schema.tables:
-        given = "default" in table.schema or table.many
-        doc = table.doc if given else f"{table.doc} {NOT_THERE}"
-        result.section(table.key, doc, schema.kinds(table), table.many)
+        result.section(table.key, table.doc, schema.kinds(table), table.many)
     return INTRODUCTION + "\n" + "\n".join(result.sections)

@@ -19,14 +19,14 @@ fn main() -> Result<(), SettingError> {
         let out = Vec3::new(around.cos(), 0.5, around.sin()).normalize();
         hair.push((0..=16).map(|i| 9.0 * out + i as f32 * (0.8 * out - Vec3::Y).normalize()));
     }
-    // The ellipsoid is no body. A capsule of two equal ends is a ball.
+    // Hair does not collide with the ellipsoid, so add a body: a capsule whose two ends coincide is a ball.
     let ball = Shape::Other(Arc::new(Capsule::new([Vec3::ZERO; 2], 9.0, "head")?));
     let bodies = vec![Body::new("head", ball, BodyWay::WithHead, Contact::default())];
     let dynamics = Dynamics { form: Form::Free(FreeMotion { bodies, ..FreeMotion::default() }), ..Dynamics::new(head) };
     let wind = UniformField(Vec3::new(-80.0, 20.0, 0.0));
     let mut simulation = Simulation::new(&hair, &dynamics, &wind)?;
     for frame in 1..=50 {
-        // No poses: the head stands still.
+        // Without poses the head does not move.
         simulation.step_frame(&FrameInput::new(frame, &[], &wind));
     }
     println!("from {} to {}", hair.strand(0)[16], simulation.strands().strand(0)[16]);

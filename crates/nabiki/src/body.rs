@@ -16,14 +16,15 @@ use crate::settings;
 use crate::strands::bounds;
 
 settings! {
-    /// How hair and a body touch, in the free form.
+    /// How hair and a body touch in the free form.
     #[derive(Copy)]
     pub struct Contact where holds_what_lies_still {
-        /// How far from the skin nodes are kept. A node that lies closer at rest is kept where it lies.
+        /// Distance that nodes keep from the skin. A node that is closer at rest keeps its rest distance.
         pub margin: f32 = 0.1 => "Margin", unit "cm", least 0.0, most 5.0;
-        /// The part of a push that sliding hair loses of its speed along the skin (Coulomb).
+        /// Friction of sliding hair: the share of the push that it loses as speed along the skin (Coulomb).
         pub friction: f32 = 0.1 => "Friction", least 0.0, most 10.0;
-        /// The same for hair that does not slide, at least `friction`: it stays as long as what would move it is below this part of the push.
+        /// Friction of hair that does not slide, at least `friction`. Hair starts to slide when the force along the
+        /// skin exceeds this share of the push.
         pub static_friction: f32 = 0.15 => "Static friction", least 0.0, most 10.0;
     }
 }
@@ -197,7 +198,7 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     let [low, high] = bounds(&mesh.positions);
     let side = |cm: f32| if cm < 1e5 { format!("{}", (1e3 * cm).round() / 1e3) } else { format!("{cm:.1e}") };
     let size = format!("{} cm", (high - low).to_array().map(side).join(" x "));
-    let sheet = "a sheet encloses no space, or next to none, so nothing can be told to be inside it: make it thicker";
+    let sheet = "a sheet encloses no space, or next to none, so it has no inside: make it thicker";
     let thickness = (high - low).min_element();
     if thickness <= 0.0 {
         return refused(&size, sheet);
@@ -207,8 +208,8 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     let samples = SkinDistance::count_samples(&mesh, low - AROUND_CM, high + AROUND_CM, spacing);
     if samples.is_nan() || samples > MOST_SAMPLES {
         let remedy = format!(
-            "is too large to be sampled every {spacing:.2} cm: check its unit, cut away what no hair comes near, or make a thin \
-             one thicker"
+            "is too large to be sampled every {spacing:.2} cm: check its unit, remove parts far from the hair, or make a \
+             thin body thicker"
         );
         return refused(&size, &remedy);
     }

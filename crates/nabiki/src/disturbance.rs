@@ -6,22 +6,22 @@ use crate::setting::{Place, refused};
 use crate::settings;
 
 settings! {
-    /// Turns every strand a little, at random, every so many frames, in the paper's form.
+    /// Turns each strand a little, at random and at regular intervals, in the paper's form.
     ///
-    /// The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
-    /// uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
-    /// segments' speeds are left alone. The numbers depend on seed, strand and frame only.
+    /// The paper gives neither size nor law. Here a strand gets one random turn of theta and one of phi, uniform within
+    /// `amplitude` at the tip and falling to 0 at the root. It therefore stays a smooth curve. The speeds of the
+    /// segments do not change. The random numbers depend only on seed, strand and frame.
     pub struct Disturbance in "disturbance" where does_not_overlap {
-        /// Frames from one disturbance to the next. The paper has 10; every frame would be too much.
+        /// Frames between two disturbances. The paper uses 10; a disturbance in each frame is too much.
         pub every: u32 = 10 => "Every", unit "frames", least 1.0;
-        /// First frame that may be disturbed. The paper disturbs the last 60 of 100.
-        pub from: u32 = 1 => "From", unit "frame";
+        /// First frame that may be disturbed. The paper disturbs the last 60 of 100 frames.
+        pub from: u32 = 1 => "First frame", unit "frame";
         /// Largest turn at the tip.
         pub amplitude: f32 = 0.03 => "Amplitude", unit "rad", above 0.0, most std::f64::consts::PI;
-        /// Frames in which a disturbance sets in, at most `every`. At 1, the paper's way, it is there at once, and seen as a
-        /// jump; over more frames it comes and stays smoothly, and is the same in the end.
-        pub over: u32 = 1 => "Over", unit "frames", least 1.0;
-        /// Seed of the random numbers: another number, other turns.
+        /// Number of frames over which a disturbance builds up, at most `every`. At 1, as in the paper, it is a visible
+        /// jump. More frames make it smooth, with the same end result.
+        pub over: u32 = 1 => "Build-up", unit "frames", least 1.0;
+        /// Random seed of the turns.
         pub seed: u64 = 1 => "Seed";
     }
 }

@@ -68,36 +68,39 @@ pub use timeline::{Played, Timeline};
 settings! {
     /// Length and pace of the motion, and the mass of hair. The defaults are Table 1 of the paper.
     pub struct Motion in "motion" {
-        /// Frames after the rest frame 0 (N_f).
+        /// Number of frames after the rest frame 0 (N_f).
         pub frames: u32 = 100 => "Frames", least 1.0, most Motion::MOST_FRAMES as f64;
-        /// Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames: of its settings only
-        /// those in units of the world depend on this.
-        pub frame_rate: f64 = 24.0 => "Frame rate", unit "a second", above 0.0;
-        /// Delta t of equation (7), in a unit of the step's own: a frame is one step.
+        /// Frames per second, for playback and for sampling a recorded head. Hair moves by frames, so only settings in
+        /// world units such as "1 g" depend on this.
+        pub frame_rate: f64 = 24.0 => "Frame rate", unit "per second", above 0.0;
+        /// Delta t of equation (7), in the method's own unit. A frame is one step; a larger value makes hair swing
+        /// faster.
         pub time_step: f32 = 0.1 => "Time step", above 0.0;
-        /// Slow motion of the hair: 4 is hair filmed at four times the frame rate. The head and the fields keep their pace.
+        /// Slow motion of the hair: 4 shows hair as if filmed at four times the frame rate. The head and the fields
+        /// keep their pace.
         pub slow: f32 = 1.0 => "Slow motion", unit "times", least 0.1, most 100.0;
-        /// lambda of equation (6): the mass of a centimetre of hair, in the units of the force.
+        /// Mass of 1 cm of hair, in the units of the force: lambda of equation (6).
         pub linear_density: f32 = 0.05 => "Density", unit "per cm", above 0.0;
-        /// Hair shorter than this has the inertia of hair this long: its longer neighbours hold it. 0, the paper's way, gives every strand
-        /// the inertia of its own length, and short hair very fast swings.
-        pub inertia_length_floor: f32 = 0.0 => "Shortest inertia", unit "cm", least 0.0;
-        /// Segments that hang within this of the vertical at rest are made to hang exactly so, and are then free to swing in the plane of
-        /// any force (section 4.2). A segment nearly vertical is not: it keeps the plane of its small lean, and hair that leans this way and
-        /// that is blown apart. 0, the paper's way, leaves the hair as it is.
+        /// Hair shorter than this gets the inertia of hair this long, as if longer neighbours held it. Raise it to calm
+        /// short hair, which otherwise swings very fast. 0, as in the paper, gives each strand the inertia of its own
+        /// length.
+        pub inertia_length_floor: f32 = 0.0 => "Inertia floor", unit "cm", least 0.0;
+        /// Makes segments exactly vertical that are within this angle of the vertical at rest. They can then swing in
+        /// the plane of any force (section 4.2). Raise it if straight hair is blown apart: a nearly vertical segment
+        /// otherwise keeps the plane of its small lean. 0, as in the paper, leaves the hair as it is.
         // It belongs to the making of the rest shape, see `straightened`: steppers take hair as it is.
         pub straighten: f32 = 0.0 => "Straighten", unit "degrees", least 0.0, most 45.0;
-        /// Space of the forces; it matters where the head turns.
-        pub force_space: ForceSpace = ForceSpace::World => "Forces";
+        /// The space of the forces. It matters if the head turns.
+        pub force_space: ForceSpace = ForceSpace::World => "Force space";
     }
 }
 
 words! {
     /// The space that forces are given in.
     pub enum ForceSpace = World {
-        /// They stay as they are while the head turns under them.
+        /// Forces stay fixed in the world while the head turns.
         World = "world",
-        /// They turn with the head.
+        /// Forces turn with the head.
         Head = "head",
     }
 }

@@ -7,10 +7,10 @@ use glam::{Vec2, Vec3};
 use crate::settings;
 
 settings! {
-    /// An ellipsoid whose axes are those of head space: E(p) = |(p - center) / half_axes|^2 - 1.
+    /// An ellipsoid with axes along x, y and z of head space: E(p) = |(p - center) / half_axes|^2 - 1.
     #[derive(Copy)]
     pub struct Ellipsoid {
-        /// Centre, in head space.
+        /// Centre in head space.
         pub center: Vec3 = Vec3::ZERO => "Centre", must "[x, y, z]", unit "cm";
         /// Half axes along x, y and z.
         pub half_axes: Vec3 = Vec3::new(9.0, 11.0, 8.0) => "Half axes", must "[x, y, z]", unit "cm", above 0.0;

@@ -17,47 +17,54 @@ use crate::strands::Strands;
 pub const EARTH_CM_PER_S2: f64 = 981.0;
 
 settings! {
-    /// How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F.
+    /// How hair keeps its shape and settles in the free form. Strengths are in F, the unit of the wind.
     pub struct FreeForm in "free" {
-        /// How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. One number, or a list from root to
-        /// tip. K of docs/motion-forms.md: EI = 3/8 A L K d^2, with d `hair.segment_length`. Hair bends alike however finely it is cut.
+        /// How firmly hair keeps its shape: at 36 times the strength of the wind, hair of 18 cm bends over about 6 cm.
+        /// One number, or a list from root to tip. In docs/motion-forms.md this is K, with EI = 3/8 A L K d^2 and d =
+        /// `hair.segment_length`. The number of segments does not change how hair bends.
         pub stiffness: Profile = Profile::RootToTip(vec![12_000.0, 1000.0]) => "Stiffness", least 0.0, most 1e9;
-        /// How firmly hair keeps its place on the head, as with hair spray. One number, or a list from root to tip. H: turns segments
-        /// toward their rest direction on the head. Against a force F, limp hair settles along F + H r.
+        /// How firmly hair returns to its groomed place on the head, like hair spray. One number, or a list from root
+        /// to tip. In docs/motion-forms.md this is H: it turns segments toward their rest direction on the head.
+        /// Against a force F, limp hair settles along F + H r.
         pub hold: Profile = Profile::Even(30.0) => "Hold", least 0.0, most 1e9;
-        /// Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. One number, or a list
-        /// from root to tip, interpolated in frames: next to a 0 hair hardly swings.
+        /// Number of frames in which a swing falls to 1/e: 7 looks like wet hair, 20 swings over once, 60 keeps waving,
+        /// 0 removes the air. One number, or a list from root to tip, interpolated in frames: hair next to a 0 hardly
+        /// swings.
         pub settle: Profile = Profile::Even(20.0) => "Settle", unit "frames", least 0.0;
-        /// How fast moved hair falls; [`earth_gravity`](crate::dynamics::earth_gravity) is that of the earth. Hair at rest does not sag.
+        /// How fast moved hair falls. Hair at rest does not sag. [`earth_gravity`](crate::dynamics::earth_gravity) is
+        /// the gravity of the earth.
         pub gravity: f32 = 100.0 => "Weight", least 0.0, most 1e9;
-        /// How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or a list from root to
-        /// tip. It weighs the head's turn, its acceleration and the pull of the still air.
+        /// How far a moving head leaves the hair behind: 0 moves hair with the head, 1 is realistic, more exaggerates.
+        /// It scales the effect of turns, accelerations and still air. One number, or a list from root to tip.
         pub drag: Profile = Profile::Even(1.0) => "Drag", least 0.0, most 10.0;
-        /// Whether `[pseudo_force]` weakens the field before the head, as in the paper's form.
+        /// Whether `[pseudo_force]` weakens the wind in front of the head, as in the paper's form.
         pub pseudo_force: bool = false => "Pseudo-force";
-        /// How locks differ, so that they part in the wind.
+        /// Differences between locks, so that they part in the wind.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub variation: Option<LockVariation> = None => "Locks", open "all alike";
-        /// A band that ties hair: strands that pass it at rest are held from the root to the band.
+        pub variation: Option<LockVariation> = None => "Locks", open "locks do not differ";
+        /// A band that ties hair. Strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub tie: Option<Tie> = None => "Tie", open "no band";
-        /// Steps that a frame is divided into. Left open, a scene takes as many as weight and stiffness need, and at least 2.
+        pub tie: Option<Tie> = None => "Tie", open "none";
+        /// Number of steps per frame. By default a scene takes as many as weight and stiffness need, at least 2. Raise
+        /// it if fast contact is missed.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub substeps: Option<u32> = None => "Substeps", least 1.0, most 32.0, open "by weight and stiffness";
+        pub substeps: Option<u32> = None => "Substeps", least 1.0, most 32.0, open "as many as needed";
     }
 }
 
 settings! {
-    /// A band that ties hair. A strand that passes it at rest goes with the head up to the band, and moves beyond it as if it were rooted there.
+    /// A band that ties hair. A strand that passes the band at rest moves with the head up to it. Beyond the band it
+    /// moves as if rooted there.
     ///
-    /// Segments up to the node nearest to the band are held: their inverse mass is 0. Lengths and lists from root to tip count from there. A
-    /// strand that passes between two nodes, neither near enough, is tied at the nearer one, but never at its root.
+    /// Segments up to the node nearest to the band are held: their inverse mass is 0. Lengths, and lists from root to
+    /// tip, count from there. A strand that passes with no node close enough is tied at the nearer node of that
+    /// segment, but never at its root.
     #[derive(Copy)]
     pub struct Tie {
-        /// Middle of the band, in head space.
-        pub at: Vec3 = Vec3::new(-11.0, 2.0, 0.0) => "At", must "[x, y, z]", unit "cm";
-        /// Strands that pass this near are tied.
-        pub within: f32 = 1.5 => "Within", must "1.5", unit "cm", above 0.0;
+        /// Middle of the band in head space.
+        pub at: Vec3 = Vec3::new(-11.0, 2.0, 0.0) => "Position", must "[x, y, z]", unit "cm";
+        /// Largest distance from the band of the strands to tie.
+        pub within: f32 = 1.5 => "Distance", must "1.5", unit "cm", above 0.0;
     }
 }
 
@@ -99,20 +106,20 @@ impl FreeForm {
 }
 
 settings! {
-    /// Hair against hair, through a grid that a few strands, the carriers, fill as they move.
+    /// Hair against hair. A few strands, the carriers, fill a grid as they move.
     ///
-    /// Carriers write density and mean velocity; in the next frame every strand, carriers too, reads them. So a strand depends on itself and
-    /// the carriers only, and any subset of the hair moves as within the whole.
+    /// Carriers write density and mean velocity to the grid. In the next frame all strands read them. A strand
+    /// therefore depends only on itself and the carriers, and any subset of the hair moves as it does among all.
     pub struct NeighbourForces in "neighbours" {
-        /// Number of carriers: the first strands of the farthest-first order.
+        /// Number of carriers: the first strands of an even selection.
         pub carriers: u32 = 256 => "Carriers", unit "strands", least 1.0, most 4096.0;
-        /// How firmly hair keeps its volume: pushes it out of places fuller than at rest. In the unit of F where the density falls by that of
-        /// the hair at rest over one cell.
+        /// How firmly hair keeps its volume: it pushes hair out of places that are fuller than at rest. In the unit F,
+        /// where the density falls by that of hair at rest over one cell.
         pub pressure: f32 = 40.0 => "Pressure", least 0.0;
-        /// How firmly strands drag their neighbours along: pulls a node toward the mean velocity about it, in the unit of F for each cm a
-        /// frame.
+        /// How firmly strands drag their neighbours along: raise it if neighbours drift apart. It pulls a node toward
+        /// the mean velocity around it, in the unit F per cm per frame.
         pub cohesion: f32 = 40.0 => "Cohesion", least 0.0;
-        /// Edge of a cell of the grid.
+        /// Edge length of a grid cell.
         pub cell: f32 = 2.0 => "Cell", unit "cm", least 0.5, most 20.0;
     }
 }

@@ -71,8 +71,7 @@ impl Head {
         check_ellipsoid(&ellipsoid)?;
         check_size(&mesh, &ellipsoid)?;
         if !orientation.has_inside {
-            let remedy = "encloses no space, so nothing can be told to be inside it: give a head that is closed, or \
-                          open only where it is cut off";
+            let remedy = "encloses no space, so it has no inside: give a closed head, or one that is open only where it is cut off";
             return Err(refused_mesh(&mesh, "a sheet", remedy));
         }
         Ok(Self::assemble(mesh, ellipsoid, orientation))
@@ -221,7 +220,7 @@ fn check_size(mesh: &Mesh, ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
         return Ok(());
     }
     let remedy = format!(
-        "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: mend head.unit",
+        "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: correct head.unit",
         HALF_AXES[0], HALF_AXES[1]
     );
     Err(refused_mesh(mesh, format!("a head of {size:.3e} cm"), &remedy))

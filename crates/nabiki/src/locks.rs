@@ -53,28 +53,31 @@ impl Locks {
 settings! {
     /// How locks differ, so that they part in the wind instead of moving as one.
     ///
-    /// A lock is the hair of a clump, as the groom has them, and keeps its ways in every take: they are drawn from its place on the head and
-    /// the seed. Hair that takes n times the air is pushed n times as hard by the wind, and settles n times as fast.
+    /// A lock is the hair of a clump of the groom. Its differences are drawn from its place on the head and the seed,
+    /// so they are the same in each take. Hair that catches n times as much air is pushed n times as hard by the wind
+    /// and settles n times as fast.
     #[derive(Copy)]
     pub struct LockVariation in "free.variation" {
-        /// How much the air that a lock takes differs from lock to lock: the standard deviation of its logarithm. 0.35 lets a sixth of the locks
-        /// take 1.4 times the air, or more, and a sixth 0.7 times, or less.
+        /// How much locks differ in the air they catch, so that they part in changing wind. It is the standard
+        /// deviation of the logarithm: at 0.35, a sixth of the locks catches at least 1.4 times the air, and a sixth at
+        /// most 0.7 times.
         pub air: f32 = 0.35 => "Air", least 0.0, most 1.0;
-        /// How much the wind on a lock swells and turns by itself, in strength and in radians (both root mean square), in a rhythm of the
-        /// lock's own. This is what parts locks in an even wind.
+        /// How much the wind on a lock varies by itself. It changes in strength and direction (root mean square, in
+        /// radians), in the lock's own rhythm. This is what parts locks in a steady wind.
         pub flutter: f32 = 0.3 => "Flutter", least 0.0, most 0.5;
-        /// Frames in which it does so once, about.
+        /// Approximate number of frames of one flutter.
         pub flutter_frames: f32 = 24.0 => "Flutter period", unit "frames", least 2.0, most 10000.0;
-        /// How much stiffness differs from lock to lock: the standard deviation of its logarithm.
+        /// How much locks differ in stiffness: the standard deviation of its logarithm.
         pub stiffness: f32 = 0.2 => "Stiffness", least 0.0, most 1.0;
-        /// How much the strands of a lock differ among themselves, as a part of how locks differ. What is much frays locks to frizz.
+        /// How much the strands within a lock differ, as a share of how locks differ. Large values fray locks to frizz.
         pub strands: f32 = 0.2 => "Strands", least 0.0, most 1.0;
-        /// Share of strands that take three times the air.
+        /// Share of strands that catch three times as much air.
         pub flyaways: f32 = 0.02 => "Flyaways", least 0.0, most 1.0;
-        /// Width of a lock at the scalp. Left open, that of the groom's clumps, so that clumps are locks; 1.2 cm for hair of a file.
+        /// Width of a lock at the scalp. By default that of the groom's clumps, so that clumps are locks, or 1.2 cm for
+        /// hair from a file.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub size: Option<f32> = None => "Lock size", unit "cm", least 0.1, most 100.0, open "the groom's clumps";
-        /// Another number, other locks that catch the wind.
+        /// Random seed. Change it to make other locks catch the wind.
         pub seed: u64 = 0 => "Seed";
     }
 }

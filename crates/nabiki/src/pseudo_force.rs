@@ -8,12 +8,14 @@ use crate::setting::{Place, refused};
 use crate::settings;
 
 settings! {
-    /// The pseudo-force: it weakens the wind before the head, the paper's stand-in for collisions. The default is Table 1 of the paper.
+    /// The pseudo-force: it weakens the wind in front of the head, in place of collisions. The defaults are Table 1 of
+    /// the paper.
     pub struct PseudoForce in "pseudo_force" where has_coefficients {
-        /// alpha of equation (4), the cosine that bounds Gamma: at 1 all of the shell, at -1 only the line against the wind.
+        /// Cosine that bounds the domain Gamma: alpha of equation (4). 1 covers the whole shell, -1 only the line
+        /// against the wind.
         pub alpha: f32 = -0.75 => "Alpha", least -1.0, most 1.0;
-        /// eps_i for the segments i = 1, 2, ... from the root on; the last one goes on to the tip. Where segments are not
-        /// `hair.segment_length` long, i is the distance along the strand counted in it.
+        /// Factor eps_i on the wind for each segment, from the root on. The last one continues to the tip. If segments
+        /// are not `hair.segment_length` long, i counts the distance along the strand in that length.
         pub coefficients: Vec<f32> = table_1() => "Coefficients", above 0.0, most 1.0;
     }
 }

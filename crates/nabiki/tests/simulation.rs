@@ -304,7 +304,7 @@ fn unstable_hair_that_may_be_in_metres_is_said_to_be() {
         Simulation::new(&hair, &dynamics, &blows).err().map(|refused| refused.to_string())
     };
     let metres = refusal(0.01, 0.01, 100.0).unwrap();
-    let hint = "; the longest strand is 0.18 cm and the head's mean half axis is 0.10 cm: if that is in metres, give it in cm, times 100";
+    let hint = "; the longest strand is 0.18 cm and the head's mean half axis is 0.10 cm: if that is in metres, convert it to cm (times 100)";
     assert!(metres.ends_with(hint), "{metres}");
     assert!(refusal(0.01, 1.0, 100.0).unwrap().contains("strand is 0.18 cm: if"));
     assert!(refusal(1.0, 0.01, 1e5).unwrap().contains("axis is 0.10 cm: if"));

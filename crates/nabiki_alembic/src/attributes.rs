@@ -98,13 +98,13 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         let of = match header.detail("geoScope") {
             Some("fvr") => Uvs::OfCorners,
             Some("vtx" | "var") => Uvs::OfVertices,
-            Some("uni") => return Ok(Err("they are of faces, not of places".to_owned())),
-            _ => return Ok(Err("they are one pair for all, not of places".to_owned())),
+            Some("uni") => return Ok(Err("they belong to faces, not to points".to_owned())),
+            _ => return Ok(Err("they are one pair for all points".to_owned())),
         };
         if let Some(why) = self.misindexed("uv")? {
             return Ok(Err(why.to_owned()));
         }
-        Ok(self.tuples::<2>("uv")?.map(|uvs| Some(of(uvs))).ok_or_else(|| "no pairs of numbers are in them".to_owned()))
+        Ok(self.tuples::<2>("uv")?.map(|uvs| Some(of(uvs))).ok_or_else(|| "they are not pairs of numbers".to_owned()))
     }
 
     fn stored(&mut self, name: &str) -> Result<Option<Sample>, Problem> {

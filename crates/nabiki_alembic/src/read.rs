@@ -178,7 +178,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
             let inside = self.schema(object)?;
             let header = required(&inside, "P", &self.tree.path(object))?;
             if header.samples > MOST_FRAMES {
-                return Err(Problem(format!("its curves have {} samples, more than is read", header.samples)));
+                return Err(Problem(format!("its curves have {} samples, more than nabiki reads", header.samples)));
             }
             if header.samples == 0 {
                 continue;
@@ -208,7 +208,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
         let period = own.or(stated).or(most.period).unwrap_or(1.0 / DEFAULT_RATE);
         as_sampled.or_else(|| Frames::whole(&most.times, period)).ok_or_else(|| {
             let [first, last] = [most.times[0], most.times[most.times.len() - 1]];
-            Problem(format!("its curves move from {first} s to {last} s, longer than is read"))
+            Problem(format!("its curves move from {first} s to {last} s, longer than nabiki reads"))
         })
     }
 
@@ -247,7 +247,9 @@ impl<R: Read + Seek> ArchiveReader<R> {
                 let samples = values.different_samples();
                 if samples + motion.times.len() > MOST_FRAMES {
                     let path = &self.tree.path(i);
-                    return Err(Problem(format!("object {path}: moves over {samples} samples, more than is read")));
+                    return Err(Problem(format!(
+                        "object {path}: moves over {samples} samples, more than nabiki reads"
+                    )));
                 }
                 self.tree.budget().take_list::<f64>(samples, "times of samples")?;
                 motion.add(&self.tree.timings[values.timing], samples);

@@ -163,7 +163,7 @@ impl<R: Read + Seek> Tree<R> {
         };
         let version = from.data(version)?;
         if version != [0; 4] {
-            return Err(Problem(format!("has layout version {version:?}, of which nothing is known")));
+            return Err(Problem(format!("has the unknown layout version {version:?}")));
         }
         let timings = timings(&from.data(timing)?)?;
         let metadata = table(&from.data(metadata)?)?;
@@ -200,7 +200,7 @@ impl<R: Read + Seek> Tree<R> {
     fn list(&mut self, object: Object, depth: usize, above: u64, known: &mut HashSet<u64>) -> Result<u64, Problem> {
         if depth > DEEPEST {
             let name = &object.name;
-            return Err(Problem(format!("object {name:.80}: lies deeper than {DEEPEST} others, as none does")));
+            return Err(Problem(format!("object {name:.80}: has more than {DEEPEST} ancestors")));
         }
         if object.name.len() > LONGEST_NAME {
             return Err(too_long(&object.name));

@@ -92,13 +92,13 @@ fn shutter_samples_are_read_at_whole_frames_whatever_they_move() {
 #[test]
 fn even_samples_that_meet_the_frames_are_frames_themselves() {
     for (times, in_cycle, period, rate, off) in [
-        (&[3.0, 5.0, 7.0][..], 1, 2.0 * FRAME, 12.0, Some("1.500 goes out as frame 2")),
-        (&[0.25, 1.25, 2.25], 1, FRAME, 24.0, Some("0.250 goes out as frame 0")),
+        (&[3.0, 5.0, 7.0][..], 1, 2.0 * FRAME, 12.0, Some("1.500 is written as frame 2")),
+        (&[0.25, 1.25, 2.25], 1, FRAME, 24.0, Some("0.250 is written as frame 0")),
         (&[1.0, 2.0, 3.0], 3, ACYCLIC, 24.0, None),
     ] {
         let mut archive = archive(times, period, in_cycle, true);
         check(&mut archive, times, rate, true);
-        let said = off.map(|off| format!("the place of its samples between frames: {off}"));
+        let said = off.map(|off| format!("the time of its samples between frames: {off}"));
         assert_eq!(archive.hair(0, None).unwrap().attributes.unread, Vec::from_iter(said));
     }
 }

@@ -154,7 +154,7 @@ fn what_does_not_show_is_said_of_curves_and_left_out_of_meshes() {
     assert_eq!(hair.attributes.unread, said);
     assert_eq!(file.mesh().unwrap().positions[1], Vec3::X);
     assert_eq!(file.mesh().unwrap().positions.len(), 4);
-    let said = "mesh /off/ghost, which does not show: visibility of /off is \"hidden\"";
+    let said = "mesh /off/ghost, which is hidden: visibility of /off is \"hidden\"";
     assert_eq!(file.mesh_unread().unwrap(), [said]);
     // Alone it is the head.
     let alone = |path: &str| path == "/off/ghost";
@@ -188,6 +188,6 @@ fn shapes_that_are_not_read_are_said_beside_those_that_are() {
         [format!("points /dust, and 1 more: {read}"), format!("NURBS surfaces /scalp: {read}")]
     );
     assert_eq!(file.mesh_unread().unwrap(), [format!("NURBS surfaces /scalp: {read}")]);
-    let refused = "has NURBS surfaces and no meshes of polygons, which alone are read: convert them";
+    let refused = "has NURBS surfaces, but nabiki reads only meshes of polygons: convert them";
     assert_eq!(file.mesh().unwrap_err().to_string(), refused);
 }

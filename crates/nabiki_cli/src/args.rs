@@ -12,7 +12,7 @@ use nabiki_scene::farm::Engine;
 use nabiki_scene::tasks::{Pictures, Twin};
 use nabiki_scene::{Result, threads};
 
-/// Hair in the wind: groom it, blow on it, draw it.
+/// Simulate and render hair: groom it, blow wind through it, draw it
 #[derive(Parser)]
 #[command(
     name = "nabiki",
@@ -20,97 +20,98 @@ use nabiki_scene::{Result, threads};
     arg_required_else_help = true,
     after_help = "\
 Start with:
-  nabiki preview scenes/gust.toml                     300 strands: what will the wind do?
+  nabiki preview scenes/gust.toml                     300 strands: a quick look at the wind
   nabiki preview scenes/gust.toml --set 'force.0.vector=[-200,20,0]'
-  nabiki run scenes/gust.toml                         the whole movie
+  nabiki run scenes/gust.toml                         the full movie
 
 A scene is a TOML file. Its tables: head, hair; motion, free, contact, body, neighbours, pseudo_force, disturbance;
-force, wind, gust, body_wind, flow, turbulence, point, vortex, fan; picture, output. The files in scenes/ are commented.
-Exit codes: 0 done, 1 refused or failed (one line says why), 2 the command line makes no sense; a signal ends it
-as it ends others (130 to a shell for Ctrl-C), and what nohup ignores it ignores."
+force, wind, gust, body_wind, flow, turbulence, point, vortex, fan; picture, output. The files in scenes/ have comments.
+Exit codes: 0 success, 1 error (one line gives the reason), 2 wrong command line. Signals act as usual: 130 in a
+shell for Ctrl-C; signals that nohup ignores stay ignored."
 )]
 pub struct Cli {
     #[command(subcommand)]
     pub command: Command,
 
-    /// No progress bars and no report, only errors
+    /// Print only errors: no progress bars, no report
     #[arg(long, short, global = true)]
     pub quiet: bool,
 
-    /// Threads to work with, 512 at the most (default: all cores); the result is the same with any
+    /// Number of threads, at most 512 (default: all cores). The result does not depend on it
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
     pub threads: Option<u16>,
 }
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Write a scene to begin with, about a head and hair of your own or the built-in ones
+    /// Write a new scene, with your own head and hair or the built-in ones
     New(New),
-    /// Groom, simulate and draw a scene: a movie and a contact sheet
+    /// Groom, simulate and render a scene: a movie and a contact sheet
     Run(Run),
-    /// The same at once, with a few strands that move exactly as they will in the whole
+    /// The same quickly, with a few strands that move exactly as they do in the final
     ///
-    /// Before any step it prints how many frames a swing takes under each force of the field, which is how to choose a force by
-    /// thinking. In the paper's form it does so for the root, the middle and the tip of a strand: T = 2 pi / acos(1 - c |F| / 2) frames,
-    /// about 2 pi / sqrt(c |F|); four times the force halves the time. In the free form it does so for the strand as a whole, which force,
-    /// weight, hold and stiffness bring back.
+    /// Before simulating, it prints how many frames a swing takes under each force of the field, to help you choose forces. In the
+    /// paper's form it prints them for the root, the middle and the tip of a strand: T = 2 pi / acos(1 - c |F| / 2) frames,
+    /// about 2 pi / sqrt(c |F|), so four times the force halves the time. In the free form it prints one number for the strand,
+    /// which force, weight, hold and stiffness bring back.
     ///
-    /// Pictures are small: of the same shape, 480 pixels on the longer side at the most. 960 x 540 become 480 x 270.
+    /// Pictures keep their shape, with at most 480 pixels on the longer side: 960 x 540 becomes 480 x 270.
     ///
-    /// The motion is the final's, to the bit; the light is a draft. Each strand is drawn thicker and takes the light of many that it
-    /// stands for, in cells of 0.8 to 1.5 cm where the final has 0.05 and 0.55, and skin shares hair's shadow between 2 x 2 pixels.
-    /// docs/performance.md shows both.
+    /// The motion of these strands is bit-identical to the final's. The lighting is a draft: each strand is drawn thicker, for the
+    /// many that it represents. Light uses cells of 0.8 to 1.5 cm (the final: 0.05 and 0.55), and skin computes the shadow of hair
+    /// once per 2 x 2 pixels. docs/performance.md shows both.
     Preview(Preview),
-    /// Grow or import the hair of a scene and write it at rest, into a hair file
+    /// Grow or import the hair of a scene and write it at rest to a hair file
     Groom(Groom),
-    /// Move the hair of a scene and write every frame into a motion cache
+    /// Simulate the hair of a scene and write each frame to a motion cache
     Simulate(Simulate),
-    /// Put the shards of a motion, simulated apart, together into the cache of the whole
+    /// Join the shards of a motion into one cache
     ///
-    /// The file is, byte for byte, the one that `nabiki simulate` writes without --shard. A shard that is missing is named with
-    /// the command that makes it.
+    /// The file is byte-identical to the one that `nabiki simulate` writes without --shard. If a shard is missing, the error names it
+    /// and the command that makes it.
     Join(Join),
-    /// Draw a scene, moved by its own simulation or by a motion cache
+    /// Render a scene, with its own simulation or a motion cache
     Render(Render),
-    /// Make a movie of numbered PNG files
+    /// Make a movie from numbered PNG files
     ///
-    /// Of PNG files of 16 bits (output.png_bits=16) it is, byte for byte, the movie that `nabiki run` makes of the same scene.
+    /// With 16-bit PNG files (output.png_bits=16), the movie is byte-identical to the one from `nabiki run`.
     Movie(Movie),
     /// Write a scene as a job for a render farm: shards, join, frames, movie
     ///
-    /// docs/farm.md says how to run it, and what it takes.
+    /// docs/farm.md explains how to run it and what it needs.
     Farm(Farm),
     /// Find the wind that makes the hair do what a wish file asks for, and write the scene with it
     ///
-    /// A wish file is TOML: what may change (`[unknowns]` with vectors, borders, interval, gust, stiffness, settle), where
-    /// locks should be (`[[wish]]` with frame, strands or near, and moved, mean_moved, mean_at or places) and what should
-    /// stay (`[[nail]]` with frames). It prints how far the hair is from the wishes before and after, and the new numbers; a
-    /// wish that no motion meets ends with the nearest one, and with the distance left. scenes/wishes/ has commented
-    /// examples, docs/solve.md the rest.
-    Solve(Solve),
-    /// Turn a hair file, or a motion cache or a frame of it, into another format
-    Convert(Convert),
-    /// Say what is in a scene, hair file, motion cache, mesh or motion of a head
-    Info(Info),
-    /// List every setting that a scene may have, with its unit, range, default and help
+    /// A wish file is TOML. `[unknowns]` lists what may change: vectors, borders, interval, gust, stiffness, settle. Each `[[wish]]`
+    /// says where locks should be: frame, strands or near, and moved, mean_moved, mean_at or places. Each `[[nail]]` lists frames
+    /// that should stay as they are.
     ///
-    /// With --json it prints a JSON Schema, by which editors complete and check scene files: `nabiki schema --json > scene.schema.json`,
-    /// and as the first line of a scene `#:schema scene.schema.json`. Units are in `x-unit`, what is taken where a setting is left out in
-    /// `x-open`.
+    /// It prints how far the hair is from the wishes before and after, and the new numbers. If no motion meets a wish, it gives the
+    /// nearest one and the remaining distance. scenes/wishes/ has commented examples; docs/solve.md explains everything else.
+    Solve(Solve),
+    /// Convert a hair file, a motion cache or one frame of it to another format
+    Convert(Convert),
+    /// Print what a scene, hair file, motion cache, mesh or head motion contains
+    Info(Info),
+    /// List all settings of a scene, with unit, range, default and help
+    ///
+    /// With --json it prints a JSON Schema, which lets editors complete and check scene files. Run
+    /// `nabiki schema --json > scene.schema.json` and make `#:schema scene.schema.json` the first line of a scene. `x-unit` holds the
+    /// unit, `x-open` what applies if you leave out a setting.
     Schema(Schema),
 }
 
-/// A scene, and changes to it for a quick try.
+/// A scene, and changes to it for one run.
 #[derive(Args)]
 pub struct SceneArgs {
     /// The scene (TOML)
     pub scene: PathBuf,
 
-    /// Frames to simulate, in place of motion.frames; the contact sheet goes without those it does not reach
+    /// Number of frames to simulate, instead of motion.frames; the contact sheet leaves out later frames
     #[arg(long, value_name = "N", value_parser = frames)]
     pub frames: Option<u32>,
 
-    /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
+    /// Set any setting of the scene, in TOML; repeatable: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
 }
@@ -124,15 +125,15 @@ pub struct New {
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 
-    /// Group, object or node of the head's file to keep, as often as wanted (default: all)
+    /// Group, object or node of the head's file to use; repeatable (default: all)
     #[arg(long, value_name = "NAME", requires = "head")]
     pub group: Vec<String>,
 
-    /// Hair to import: .hair, .tfx, .obj, .usd, .usda, .usdc or .abc (default: hair is grown)
+    /// Hair to import: .hair, .tfx, .obj, .usd, .usda, .usdc or .abc (default: grown hair)
     #[arg(long, value_name = "FILE")]
     pub hair: Option<PathBuf>,
 
-    /// Replace a file that is there already
+    /// Replace an existing file
     #[arg(long)]
     pub force: bool,
 }
@@ -142,11 +143,11 @@ pub struct Run {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    /// Number of strands to use, spread evenly over the scalp; they move as they do among all (default: all)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// Folder for the pictures, made if it is not there
+    /// Folder for the pictures, created if missing
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 
@@ -174,17 +175,17 @@ impl Cli {
 /// Moving hair for other tools.
 #[derive(Args)]
 pub struct ExportArgs {
-    /// Write the moving hair for other tools: .usdc, .usd, .usda (text) or .abc, as often as wanted
+    /// Write the moving hair for other tools: .usdc, .usd, .usda (text) or .abc; repeatable
     #[arg(long, value_name = "FILE")]
     pub export: Vec<PathBuf>,
 
-    /// Write samples alone, to be laid over the groom at this prim path of the USD stage that the hair came from, like
-    /// /character/hair; `nabiki info` on the groom's file lists them
+    /// Write only samples, as a layer over the groom at this prim path of the USD stage that the hair came from, such as
+    /// /character/hair; `nabiki info` on the groom's file lists the paths
     #[arg(long, value_name = "PRIM", value_parser = prim_path)]
     pub export_layer: Option<String>,
 
-    /// Put the head into files that would be without it: the built-in bust, and any head in .abc files, which Unreal then takes for a
-    /// mesh and not for a groom
+    /// Add the head to files that otherwise omit it: the built-in bust, and any head in .abc files. Unreal then reads such an .abc as
+    /// a mesh instead of a groom
     #[arg(long)]
     pub export_head: bool,
 }
@@ -200,15 +201,15 @@ pub struct Preview {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to show, chosen evenly over the scalp from all of the scene's (default: 300, or all where it has fewer)
+    /// Number of strands to use, spread evenly over the scalp (default: 300, or all if there are fewer)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// Write their motion into a cache (.nabiki), too
+    /// Also write their motion to a cache (.nabiki)
     #[arg(long, value_name = "FILE")]
     pub cache: Option<PathBuf>,
 
-    /// Folder for the pictures, made if it is not there
+    /// Folder for the pictures, created if missing
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 }
@@ -218,11 +219,11 @@ pub struct Groom {
     /// The scene (TOML)
     pub scene: PathBuf,
 
-    /// Any setting of the scene in TOML, as often as wanted: hair.strands=5000, or in quotes hair.origin=[0,1.6,0]
+    /// Set any setting of the scene, in TOML; repeatable: hair.strands=5000, or in quotes hair.origin=[0,1.6,0]
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
 
-    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    /// Number of strands to use, spread evenly over the scalp; they move as they do among all (default: all)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
@@ -236,7 +237,7 @@ pub struct Simulate {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    /// Number of strands to use, spread evenly over the scalp; they move as they do among all (default: all)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
@@ -244,11 +245,11 @@ pub struct Simulate {
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 
-    /// Which of the twins steps
+    /// Which implementation of the step to use
     #[arg(long, value_enum, default_value_t = StepperName::Fast)]
     pub stepper: StepperName,
 
-    /// One of N shards of the strands alone, 1/N to N/N, for `nabiki join`; each may be made on another machine
+    /// Simulate only shard K of N of the strands, for `nabiki join`; each shard may run on another machine
     #[arg(long, value_name = "K/N")]
     pub shard: Option<Shard>,
 
@@ -258,7 +259,7 @@ pub struct Simulate {
 
 #[derive(Args)]
 pub struct Join {
-    /// The shards (.nabiki), all of them, in any order
+    /// All shards (.nabiki), in any order
     #[arg(required = true)]
     pub shards: Vec<PathBuf>,
 
@@ -277,15 +278,15 @@ pub struct Movie {
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 
-    /// The scene that they show: it says how many there must be, the frame rate and the quality
+    /// The scene that they show: it sets the number of frames, the frame rate and the quality
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<PathBuf>,
 
-    /// Any setting of the scene in TOML, as often as wanted
+    /// Set any setting of the scene, in TOML; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "scene")]
     pub sets: Vec<String>,
 
-    /// Strands of the scene's that they show, as they were drawn with: said again with the command for a missing frame
+    /// The --strands they were rendered with, for the command that nabiki prints if a frame is missing
     #[arg(long, value_name = "N", requires = "scene", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 }
@@ -295,19 +296,19 @@ pub struct Farm {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    /// Number of strands to use, spread evenly over the scalp; they move as they do among all (default: all)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// The engine that runs the job
+    /// Farm system that runs the job
     #[arg(long, value_enum)]
     pub engine: EngineName,
 
-    /// Shards to simulate apart (default: as many as hold 100,000 strands each)
+    /// Number of shards to simulate (default: one per 100,000 strands)
     #[arg(long, value_name = "N", value_parser = positive::<u32>)]
     pub shards: Option<u32>,
 
-    /// Frames that one task draws
+    /// Frames that one task renders
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = positive::<u32>)]
     pub frames_a_task: u32,
 
@@ -315,12 +316,12 @@ pub struct Farm {
     #[arg(long, short, value_name = "JOB")]
     pub output: PathBuf,
 
-    /// Folder for the results, made by the job (default: beside the job, under the scene's name)
+    /// Folder for the results, created by the job (default: next to the job, named after the scene)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
 
-/// The engines of farms.
+/// The systems that run farm jobs.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum EngineName {
     /// Open Job Description, jobtemplate-2023-09: AWS Deadline Cloud and others
@@ -341,9 +342,9 @@ impl From<EngineName> for Engine {
 /// The twins.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum StepperName {
-    /// f32, sixteen strands at a time, all cores
+    /// f32, 16 strands at a time, all cores
     Fast,
-    /// The specification: one segment at a time in f64
+    /// The reference: one segment at a time, in f64
     F64,
 }
 
@@ -361,32 +362,32 @@ pub struct Render {
     /// The scene (TOML)
     pub scene: PathBuf,
 
-    /// Frames to simulate and draw, in place of motion.frames; or A..B, the frames from A through B alone, as numbered stills
+    /// Number of frames to simulate and render, instead of motion.frames; or A..B to render only frames A to B, as numbered stills
     #[arg(long, value_name = "N|A..B", allow_hyphen_values = true)]
     pub frames: Option<Frames>,
 
-    /// Any setting of the scene in TOML, as often as wanted: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
+    /// Set any setting of the scene, in TOML; repeatable: motion.time_step=0.05, or in quotes force.0.vector=[0,-100,0]
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub sets: Vec<String>,
 
-    /// Strands to show of the scene's, chosen evenly over the scalp; they move as they do in the whole (default: all)
+    /// Number of strands to use, spread evenly over the scalp; they move as they do among all (default: all)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// The motion cache to draw, written from the same scene by `simulate`; without it the scene is simulated
+    /// The motion cache to render, written from the same scene by `simulate` (default: simulate the scene)
     #[arg(long, value_name = "FILE")]
     pub motion: Option<PathBuf>,
 
-    /// Draw this frame only, as a PNG, and as OpenEXR with output.exr_frames = true
+    /// Render only this frame, as a PNG, and as OpenEXR with output.exr_frames = true
     #[arg(long, value_name = "N", value_parser = frame)]
     pub frame: Option<u32>,
 
-    /// Draw one frame (--frame, or else the first) from all around: a movie of N pictures, once round the head, or files
-    /// (output.movie = false, output.png_frames = true)
+    /// Render one frame (--frame, or else the first) from all sides: a movie of N pictures once around the head, or files (with
+    /// output.movie = false, output.png_frames = true)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=i64::from(Pictures::MOST_PICTURES)))]
     pub turntable: Option<u32>,
 
-    /// Folder for the pictures, made if it is not there
+    /// Folder for the pictures, created if missing
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
 }
@@ -409,8 +410,8 @@ impl FromStr for Frames {
             None => text.parse().ok().map(Self::Count),
         };
         let most = Motion::MOST_FRAMES;
-        let way_out = "write one whole number, or two as in 10..19 for the frames from 10 through 19";
-        found.ok_or_else(|| format!("{way_out}; {most} at the most"))
+        let way_out = "write one whole number, or two as in 10..19 for the frames from 10 to 19";
+        found.ok_or_else(|| format!("{way_out}; at most {most}"))
     }
 }
 
@@ -423,12 +424,11 @@ pub struct Solve {
     #[arg(long, value_name = "FILE")]
     pub wish: PathBuf,
 
-    /// The scene to write (TOML): this one with the numbers found and what --set and --frames say, its comments and layout
-    /// as they are
+    /// The scene to write (TOML): this one with the new numbers and the changes of --set and --frames; comments and layout are kept
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 
-    /// Strands among which locks near a point are looked for, chosen evenly over the scalp
+    /// Number of strands to search for locks near a point, spread evenly over the scalp
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = positive::<usize>)]
     pub strands: usize,
 }
@@ -438,51 +438,51 @@ pub struct Convert {
     /// A hair file (.hair, .tfx, .obj, .usd, .usda, .usdc, .abc) or a motion cache (.nabiki)
     pub input: PathBuf,
 
-    /// The file to write: .hair, .tfx, .usd, .usda, .usdc or .abc; a whole motion cache goes into one of the last four.
-    /// Imported hair comes out of a cache in the unit, axes and place of the file it came from
+    /// The file to write: .hair, .tfx, .usd, .usda, .usdc or .abc. A full motion cache needs one of the last four. Imported hair in a
+    /// cache is written in the unit, axes and place of its original file
     pub output: PathBuf,
 
-    /// Frame to take out of a motion cache, a USD layer or an Alembic archive, counted from 0: of frames 1001 to 1005 `--frame 2` is
-    /// 1003, a number that it keeps where the file that is written has a time line (USD, Alembic)
+    /// Frame to take from a motion cache, a USD layer or an Alembic archive, counted from 0: of frames 1001 to 1005, `--frame 2`
+    /// takes 1003. A file with a time line (USD, Alembic) keeps that number
     #[arg(long, value_name = "N", value_parser = frame)]
     pub frame: Option<u32>,
 
-    /// Segments into which every strand is walked (default: as the file has them)
+    /// Resample each strand to this number of segments (default: as in the file)
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub segments: Option<usize>,
 
-    /// Unit of the input, for a USD layer to name, as other files cannot: mm, cm, dm, m, in, ft or a number of centimetres
+    /// Unit of the input, to be named in a USD layer (other files cannot): mm, cm, dm, m, in, ft or a number of centimetres
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<Unit>,
 
-    /// Whether z is up in the input, for a USD layer to name
+    /// z is up in the input, to be named in a USD layer
     #[arg(long)]
     pub z_up: bool,
 
-    /// Write samples of a motion cache alone, to be laid over the groom at this prim path of the USD stage that the
-    /// hair came from, like /character/hair; `nabiki info` on the groom's file lists them
+    /// Write only the samples of a motion cache, as a layer over the groom at this prim path of the USD stage that the hair came from,
+    /// such as /character/hair; `nabiki info` on the groom's file lists the paths
     #[arg(long, value_name = "PRIM", conflicts_with = "frame", value_parser = prim_path)]
     pub export_layer: Option<String>,
 
-    /// Number of the first frame on the time line of the file that is written, with --frame of the only one (default: as a USD layer,
-    /// an Alembic archive or the cache has it; see output.first_frame)
+    /// Number of the first frame, or of the one that --frame takes, on the time line of the written file (default: from the USD layer,
+    /// Alembic archive or cache; see output.first_frame)
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub first_frame: Option<i32>,
 }
 
 #[derive(Args)]
 pub struct Info {
-    /// A scene, hair file, motion cache, mesh or motion of a head
+    /// A scene, hair file, motion cache, mesh or head motion
     pub file: PathBuf,
 
-    /// Write JSON, for programs to read
+    /// Print JSON, for programs
     #[arg(long)]
     pub json: bool,
 }
 
 #[derive(Args)]
 pub struct Schema {
-    /// Write a JSON Schema, for editors and programs to read
+    /// Print a JSON Schema, for editors and programs
     #[arg(long)]
     pub json: bool,
 }
@@ -492,8 +492,8 @@ fn prim_path(text: &str) -> Result<String, String> {
     if text.starts_with('/') {
         return Ok(text.to_owned());
     }
-    Err("give the path of the groom's curves in its USD stage, like /character/hair; nabiki info on the groom's file lists \
-         them"
+    Err("give the path of the groom's curves in its USD stage, such as /character/hair; nabiki info on the groom's file \
+         lists them"
         .into())
 }
 

@@ -295,7 +295,7 @@ fn a_preview_says_that_the_whole_would_be_refused() {
     for (last, said_so) in [(0.25, true), (5.0, false)] {
         fs::write(path(&folder, "hair.usda"), hair(last)).unwrap();
         let said = succeed(&["preview", &file, "--strands", "4", "--out", &out]);
-        let line = "4 strands of 9 are moved; all of them would be refused: ";
+        let line = "simulates 4 of 9 strands; nabiki would refuse all of them: ";
         assert_eq!(said.contains(line), said_so, "{said}");
         if said_so {
             let refused = refuse(&["simulate", &file, "-o", &path(&folder, "m.nabiki")], folder.path());
@@ -312,7 +312,7 @@ fn a_preview_of_more_strands_than_there_are_is_refused_where_their_number_is_giv
     let few =
         ["preview", GUST, "--out", &out, "--frames", "1", "--set", "hair.strands=20", "--set", "output.sheet=[0]"];
     let line = refuse(&[&few[..], &["--strands", "21"]].concat(), folder.path());
-    assert!(line.contains("21 strands are asked for and the scene has 20"), "{line}");
+    assert!(line.contains("21 strands requested, but the scene has 20"), "{line}");
     let cache = refuse(&[&few[..], &["--cache", &path(&folder, "c.usdc")]].concat(), folder.path());
     assert!(cache.trim_end().ends_with("c.usdc: a motion cache ends in .nabiki; choose another name"), "{cache}");
     assert!(succeed(&few).contains("20 strands"));
@@ -326,7 +326,7 @@ fn a_render_says_what_changes_nothing_as_a_run_does() {
     let changes = [&SMALL[..], &free, &["--set", "picture.samples=8", "--set", "output.sheet=[0]"]].concat();
     let render = [&["render", GUST, "--frame", "2", "--out", &out][..], &changes].concat();
     let said = succeed(&render);
-    for line in ["  look    hair does not feel [pseudo_force]", "  look    picture.samples changes nothing"] {
+    for line in ["  warning hair does not feel [pseudo_force]", "  warning picture.samples changes nothing"] {
         assert!(said.contains(line), "{line}: {said}");
     }
     // Motion that is there already is not judged once more.
@@ -443,7 +443,7 @@ fn what_a_motion_file_does_not_say_is_asked_for_one_by_one() {
 #[test]
 fn the_schema_is_printed_for_people_and_as_json_schema() {
     let text = succeed(&["schema"]);
-    assert!(text.contains("\nmotion.frame_rate (a second; above 0; default 24): Frames in a second"), "{text}");
+    assert!(text.contains("\nmotion.frame_rate (per second; above 0; default 24): Frames per second"), "{text}");
     assert!(text.contains("\nfan.position (cm; -1000000 to 1000000; must be given): "), "{text}");
     let json: serde_json::Value = serde_json::from_str(&succeed(&["schema", "--json"])).unwrap();
     let tables = json["properties"].as_object().unwrap();

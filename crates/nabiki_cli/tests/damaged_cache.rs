@@ -33,7 +33,7 @@ fn a_frame_whose_points_are_no_longer_its_own_is_used_by_nothing() {
             _ => points.fill(0),
         });
         let why = format!(
-            "{name}: frame {frame}: the bytes are not those that were written: the file is damaged; copy it again, or make it again"
+            "{name}: frame {frame}: the file is damaged, its checksum does not match; copy it again, or make it again"
         );
         for words in [
             format!("render {GUST} {FEW} --motion {name} --out out"),
@@ -47,7 +47,7 @@ fn a_frame_whose_points_are_no_longer_its_own_is_used_by_nothing() {
         assert!(!folder.join("out.usdc").exists() && !folder.join("out.hair").exists());
         succeed(folder, &format!("convert {name} --frame 1 one.hair"));
     }
-    assert!(refuse(folder, "info hole.nabiki").contains("hole.nabiki: frame 3: the bytes are not those"));
+    assert!(refuse(folder, "info hole.nabiki").contains("hole.nabiki: frame 3: the file is damaged"));
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn a_damaged_shard_is_not_joined() {
     }
     change_points(folder, "2.nabiki", 1, |points| points[40] ^= 0x10);
     let line = refuse(folder, "join 1.nabiki 2.nabiki -o all.nabiki");
-    assert!(line.contains("2.nabiki: frame 1: the bytes are not those that were written"), "{line}");
+    assert!(line.contains("2.nabiki: frame 1: the file is damaged, its checksum does not match"), "{line}");
     assert!(!folder.join("all.nabiki").exists());
 }
 

@@ -106,7 +106,7 @@ fn the_f64_twin_can_be_divided_too_and_not_be_mixed() {
     assert!(bytes(&folder, "joined.nabiki") == bytes(&folder, "whole.nabiki"));
     succeed(&folder, &format!("simulate {all} --shard 2/2 -o fast.nabiki"));
     assert!(
-        refuse(&folder, "join 1.nabiki fast.nabiki -o other.nabiki").contains("fast.nabiki: was stepped by the other")
+        refuse(&folder, "join 1.nabiki fast.nabiki -o other.nabiki").contains("fast.nabiki: was made with the other")
     );
 }
 
@@ -192,7 +192,7 @@ fn frames_that_are_not_there_are_refused() {
     let folder = TempDir::new().unwrap();
     let scene = format!("{SCENES}/gust.toml --strands 20");
     for (words, why) in [
-        ("--frames 7..3", "ends before it begins"),
+        ("--frames 7..3", "write the earlier frame first"),
         ("--frames 100..999", "the last frame is motion.frames = 110"),
         ("--frames 1..2 --frame 1", "give one of them"),
         ("--frames 1..2 --motion none.nabiki", "none.nabiki"),
@@ -208,9 +208,9 @@ fn shards_that_cannot_be_are_refused() {
     let folder = TempDir::new().unwrap();
     let scene = format!("{SCENES}/gust.toml --set hair.strands=900 --strands 20 --frames 2 --set output.sheet=[0]");
     for (words, why) in [
-        ("--shard 3/21 -o m.nabiki", "shard 3/21: more shards than there are strands; part them into 20 at the most"),
-        ("--shard 1/2 -o m.usdc", "a shard goes into a motion cache (.nabiki) alone"),
-        ("--shard 1/2 -o m.nabiki --export m.usdc", "a shard goes into a motion cache (.nabiki) alone"),
+        ("--shard 3/21 -o m.nabiki", "shard 3/21: more shards than strands; use at most 20"),
+        ("--shard 1/2 -o m.usdc", "a shard can only be written to a motion cache (.nabiki)"),
+        ("--shard 1/2 -o m.nabiki --export m.usdc", "a shard can only be written to a motion cache (.nabiki)"),
         ("--shard 1/2 -o /proc/none/m.nabiki", "/proc/none"),
         ("--shard 1/2 -o new/m.bin", "a motion cache ends in .nabiki"),
     ] {
@@ -247,10 +247,10 @@ fn what_is_not_all_shards_of_one_motion_is_not_joined() {
             "1_of_3.nabiki later.nabiki 3_of_3.nabiki",
             "later.nabiki: begins at frame 1001 of the shot and not 0 (output.first_frame)",
         ),
-        ("1_of_3.nabiki thick.nabiki 3_of_3.nabiki", "thick.nabiki: carries other attributes"),
+        ("1_of_3.nabiki thick.nabiki 3_of_3.nabiki", "thick.nabiki: has other attributes"),
         ("1_of_3.nabiki again.nabiki 2_of_3.nabiki 3_of_3.nabiki", "2_of_3.nabiki: is shard 2/3 as again.nabiki is"),
         ("1_of_3.nabiki 1_of_3.nabiki", "give each shard once"),
-        ("1_of_3.nabiki whole.nabiki", "whole.nabiki: a whole motion and no shard of one"),
+        ("1_of_3.nabiki whole.nabiki", "whole.nabiki: a full motion, not a shard"),
         ("1_of_3.nabiki noise.nabiki", "noise.nabiki: does not start with NABIKI"),
         ("1_of_3.nabiki cut.nabiki 3_of_3.nabiki", "cut.nabiki: 3 frames of"),
         ("none.nabiki", "none.nabiki: there is no such file"),
@@ -265,14 +265,14 @@ fn what_is_not_all_shards_of_one_motion_is_not_joined() {
     let all = "1_of_3.nabiki 2_of_3.nabiki 3_of_3.nabiki";
     for (output, why) in [
         ("joined.usdc", "a motion cache ends in .nabiki"),
-        ("2_of_3.nabiki", "this is read to make the result"),
+        ("2_of_3.nabiki", "this is an input of the result"),
         ("none/joined.nabiki", "there is no folder none"),
     ] {
         let line = refuse(&folder, &format!("join {all} -o {output}"));
         assert!(line.contains(why), "{output}: {line}");
     }
     let drawn = refuse(&folder, &format!("render {gust} --frames 2 --motion 1_of_3.nabiki"));
-    assert!(drawn.contains("1_of_3.nabiki: holds shard 1/3 of a motion; put all shards together"), "{drawn}");
+    assert!(drawn.contains("1_of_3.nabiki: contains shard 1/3 of a motion; join all shards"), "{drawn}");
     assert!(succeed(&folder, "info 2_of_3.nabiki").contains("shard 2/3 of 20 strands"));
 }
 
@@ -325,7 +325,7 @@ fn the_command_that_a_gap_is_answered_with_fills_it() {
     let was = fs::read(&gap).unwrap();
     fs::remove_file(&gap).unwrap();
     let line = refuse(&folder, &movie);
-    let (_, command) = line.trim_end().split_once("draw with nabiki ").unwrap();
+    let (_, command) = line.trim_end().split_once("render with nabiki ").unwrap();
     assert!(command.contains("--motion some/gust.nabiki") && command.contains("--strands 20"), "{command}");
     succeed(&folder, &command.replace('\'', ""));
     assert!(fs::read(&gap).unwrap() == was, "the same picture, to the bit");
@@ -355,8 +355,8 @@ fn frames_that_make_no_movie_are_refused() {
     fs::write(folder.path().join("empty.png"), []).unwrap();
     let whole = format!("--scene {SCENES}/gust.toml --set output.sheet=[0]");
     for (words, why) in [
-        ("f0.png f1.png f3.png -o m.mp4", "frame 2 is missing; draw with nabiki render SCENE --frames 2..2"),
-        ("f0.png f4.png -o m.mp4", "frames 1 to 3 are missing; draw with nabiki render SCENE --frames 1..3"),
+        ("f0.png f1.png f3.png -o m.mp4", "frame 2 is missing; render with nabiki render SCENE --frames 2..2"),
+        ("f0.png f4.png -o m.mp4", "frames 1 to 3 are missing; render with nabiki render SCENE --frames 1..3"),
         ("f0.png f1.png other/f2.png f3.png -o m.mp4", "f2.png: 64 x 64 pixels and f0.png has 96 x 64"),
         (
             "f0.png f1.png small2.png f3.png -o m.mp4",
@@ -373,7 +373,7 @@ fn frames_that_make_no_movie_are_refused() {
         ("a/gust_frames -o m.avi", "a movie ends in .mp4"),
         ("a/gust_frames -o none/m.mp4", "there is no folder none"),
         ("a/gust_frames -o m.mp4 WHOLE --set motion.frames=9", "frames 5 to 9 are missing"),
-        ("f3.png f4.png -o m.mp4 WHOLE --set motion.frames=4", "frames 0 to 2 are missing; draw with nabiki render "),
+        ("f3.png f4.png -o m.mp4 WHOLE --set motion.frames=4", "frames 0 to 2 are missing; render with nabiki render "),
         ("a/gust_frames -o m.mp4 WHOLE --set motion.frames=2", "the last frame of"),
     ] {
         let line = refuse(&folder, &format!("movie {}", words.replace("WHOLE", &whole)));
@@ -392,11 +392,11 @@ fn jobs_that_would_fail_on_the_farm_are_refused_at_once() {
         ("S --engine slurm -o none/job.sh", "there is no folder none"),
         (
             "S --engine slurm --strands 20 --shards 21 -o job.sh",
-            "--shards 21: more than there are strands; give 20 at the most",
+            "--shards 21: more shards than strands; use at most 20",
         ),
-        ("S --engine slurm --strands 99999999 -o job.sh", "ask for fewer"),
+        ("S --engine slurm --strands 99999999 -o job.sh", "request fewer"),
         ("S --engine slurm --set picture.size=[5000,3000] -o job.sh", "picture.size = 5000 x 3000"),
-        ("S --engine slurm --set picture.background.transparent=true -o job.sh", "stills with alpha make no movie"),
+        ("S --engine slurm --set picture.background.transparent=true -o job.sh", "a movie cannot have alpha"),
         ("S --engine slurm --set force.0.vector=[-1e9,0,0] -o job.sh", "keep |F| below"),
         ("S --engine openjd --set hair.strands=0 -o job.yaml", "hair.strands = 0"),
         ("none.toml --engine openjd -o job.yaml", "none.toml"),

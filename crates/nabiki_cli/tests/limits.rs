@@ -37,10 +37,10 @@ fn work_that_takes_more_memory_than_there_is_is_refused_before_it_begins() {
     // 380 bytes for each root, however few strands are shown.
     let line = simulate(&["hair.strands=800000000", "hair.segments=1", "hair.segment_length=18"]);
     assert!(
-        line.contains("hair.strands = 800000000: to spread its roots needs 283.1 GiB of memory at least"),
+        line.contains("hair.strands = 800000000: to spread its roots needs at least 283.1 GiB of memory"),
         "{line}"
     );
-    assert!(line.contains("GiB are to be had: grow less"), "{line}");
+    assert!(line.contains("GiB are available: grow less"), "{line}");
     // Roots fit, and what grows from them does not.
     let line = simulate(&["hair.strands=500000", "hair.segments=4000", "hair.segment_length=0.0045"]);
     assert!(line.contains("hair.strands = 500000: to grow 500000 of them needs "), "{line}");
@@ -68,13 +68,13 @@ fn threads_that_are_not_to_be_had() {
     };
     for count in ["10000", "513", "18446744073709551615"] {
         let line = refused(&folder, of_environment(count));
-        assert!(line.contains(&format!("RAYON_NUM_THREADS={count}: 512 threads are the most")), "{line}");
+        assert!(line.contains(&format!("RAYON_NUM_THREADS={count}: at most 512 threads")), "{line}");
     }
     // Each takes two MiB of address space for its stack.
     let many = ["preview", GUST, "--frames", "1", "--threads", "512"];
     let line = refused(&folder, limited(&folder, "-v 500000", &many));
     assert!(
-        line.contains("--threads 512: the system does not give so many (") && line.contains("--threads N"),
+        line.contains("--threads 512: the system cannot start that many (") && line.contains("--threads N"),
         "{line}"
     );
 }

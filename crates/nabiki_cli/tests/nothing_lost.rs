@@ -71,7 +71,7 @@ fn a_result_that_is_also_an_input_is_refused() {
     let hair = bytes(&folder, "hair.hair");
     for words in all {
         let line = refuse(&folder, &words);
-        assert!(line.contains("this is read to make the result"), "{words}: {line}");
+        assert!(line.contains("this is an input of the result"), "{words}: {line}");
         assert!(bytes(&folder, "scene.toml") == scene && bytes(&folder, "hair.hair") == hair, "{words}");
     }
 }
@@ -98,7 +98,7 @@ fn names_of_results_are_refused_before_anything_is_built() {
         ("run scene.toml --export moving.abc --export-layer /Hair", "Alembic has no layers"),
         ("groom scene.toml -o hair.fbx", "is not a hair format"),
         ("simulate scene.toml -o motion.bin", "a motion cache ends in .nabiki"),
-        ("simulate scene.toml -o a.usdc --export ./a.usdc", "asked for twice"),
+        ("simulate scene.toml -o a.usdc --export ./a.usdc", "given twice"),
     ] {
         let line = refuse(&folder, &format!("{words} {no_head}"));
         assert!(line.contains(why), "{words}: {line}");
@@ -208,7 +208,7 @@ fn a_layer_out_of_a_cache_is_checked_against_the_groom_that_the_cache_remembers(
     let line = refuse(&folder, "convert grown.nabiki g.usda --export-layer /head/hair");
     assert!(line.contains("its hair is grown here; leave out --export-layer"), "{line}");
     let line = refuse(&folder, "simulate own.toml -o m.nabiki --export-layer /head/hair");
-    assert!(line.contains("--export-layer /head/hair: give the layer's file, too"), "{line}");
+    assert!(line.contains("--export-layer /head/hair: also give the layer's file"), "{line}");
     let wordless = nabiki(&folder, "simulate own.toml -o i.usdc --export-layer");
     let said = String::from_utf8(wordless.stderr).unwrap();
     assert!(wordless.status.code() == Some(2) && said.contains("--export-layer <PRIM>"), "{said}");
@@ -237,7 +237,7 @@ fn what_is_not_read_of_a_groom_is_said_once_whatever_is_made_of_it() {
     ] {
         let said = succeed(&folder, &format!("{words} {name}"));
         for line in ["material:binding of /h", "NurbsCurves /n: only BasisCurves are read"] {
-            let line = format!("  unread  of groom.usda: {line}\n");
+            let line = format!("  ignored in groom.usda: {line}\n");
             assert_eq!(said.matches(&line).count(), 1, "{words} {name}: {said}");
         }
         // A format is to blame for nothing that never came to it.
@@ -267,8 +267,7 @@ fn meshes_of_a_bodys_file_that_do_not_show_are_said_as_those_of_a_heads_are() {
     let ball = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/motion/ball.obj");
     fs::write(folder.path().join("own.toml"), scene.replace("scenes/ball.obj", ball)).unwrap();
     let said = succeed(&folder, "simulate own.toml -o m.nabiki --strands 9");
-    let line =
-        "\n  body[1] not read of its file: mesh /low, which does not show: visibility of /low is \"invisible\"\n";
+    let line = "\n  body[1] ignored in its file: mesh /low, which is hidden: visibility of /low is \"invisible\"\n";
     assert!(said.contains(line) && said.matches("not read").count() == 1, "{said}");
 }
 
@@ -382,7 +381,7 @@ fn the_head_goes_into_an_archive_that_is_the_result_itself_and_nowhere_unasked()
     succeed(&folder, &format!("simulate scene.toml {FEW} {own} -o own.abc"));
     assert!(faces("own.usdc") && !faces("own.abc"));
     let line = refuse(&folder, &format!("simulate scene.toml {FEW} -o m.nabiki --export-head"));
-    assert!(line.contains("--export-head: puts the head beside moving hair, and none is written"), "{line}");
+    assert!(line.contains("--export-head: adds the head to moving hair, but none is written"), "{line}");
 }
 
 #[test]
@@ -396,10 +395,10 @@ fn the_summary_says_the_worst_frame() {
 fn what_no_disk_holds_is_refused_at_once() {
     let folder = folder();
     let line = refuse(&folder, "simulate scene.toml -o m.nabiki --frames 9000000 --set output.sheet=[0]");
-    assert!(line.contains("TiB at least, and the disk has"), "{line}");
+    assert!(line.contains("TiB, but the disk has"), "{line}");
     let stills = "--set picture.size=[8192,8192] --set output.movie=false --set output.exr_frames=true";
     let line = refuse(&folder, &format!("run scene.toml --strands 5 --frames 9000000 --set output.sheet=[0] {stills}"));
-    assert!(line.contains("scene_frames: will take") && line.contains("TiB at least"), "{line}");
+    assert!(line.contains("scene_frames: needs at least") && line.contains("TiB"), "{line}");
     assert!(!folder.path().join("m.nabiki").exists());
 }
 
@@ -413,14 +412,14 @@ fn what_a_file_says_of_its_space_is_not_overridden() {
     succeed(&folder, "convert hair.hair y.usda --unit cm");
     succeed(&folder, "convert hair.hair z.usda --unit cm --z-up");
     let line = refuse(&folder, "convert y.usda out.usdc --z-up");
-    assert_eq!(line, "nabiki: y.usda: --z-up: the file itself says +y; leave --z-up out\n");
+    assert_eq!(line, "nabiki: y.usda: --z-up: the file already has +y; leave out --z-up\n");
     let line = refuse(&folder, "convert y.usda out.usdc --unit m");
-    assert_eq!(line, "nabiki: y.usda: --unit m: the file itself says cm; leave --unit out\n");
+    assert_eq!(line, "nabiki: y.usda: --unit m: the file already has cm; leave out --unit\n");
     // Where nothing can be said of it that is said in turn.
     for (output, option) in [("x.hair", "--unit=m"), ("y.hair", "--z-up"), ("x.abc", "--z-up")] {
         let said = succeed(&folder, &format!("convert hair.hair {output} {option}"));
         let option = option.trim_end_matches("=m");
-        assert!(said.contains(&format!("  look    {option} changes nothing: {output} names neither")), "{said}");
+        assert!(said.contains(&format!("  warning {option} changes nothing: {output} names neither")), "{said}");
     }
     // What agrees says nothing new.
     succeed(&folder, "convert z.usda same.usdc --z-up");
@@ -454,7 +453,7 @@ fn pictures_are_written_as_the_scene_asks_or_refused() {
     let none = "--set output.movie=false --set output.sheet=[]";
     for command in ["run", "preview", "render"] {
         let line = refuse(&folder, &format!("{command} scene.toml --strands 40 --frames 2 --out none {none}"));
-        assert!(line.contains("nothing is to be written: output.movie, png_frames"), "{line}");
+        assert!(line.contains("nothing to write: output.movie, png_frames"), "{line}");
         assert!(!folder.path().join("none").exists());
     }
 }

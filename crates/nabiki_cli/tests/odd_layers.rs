@@ -29,7 +29,7 @@ fn hair_whose_strands_come_and_go_is_refused_with_the_frame_in_which_they_do() {
     );
     let folder = folder(&hair);
     let line = refuse(&folder, "convert groom.usda out.usdc");
-    let said = "nabiki: groom.usda: frame 1 has 2 points of 1 strands, frame 0 4 points of 2 strands: moving hair keeps its strands:";
+    let said = "nabiki: groom.usda: frame 1 has 2 points of 1 strands, frame 0 4 points of 2 strands: the number of strands must not change:";
     assert!(line.starts_with(said) && line.contains("--frame N"), "{line}");
     succeed(&folder, "convert groom.usda out.usdc --frame 1");
 }
@@ -39,7 +39,7 @@ fn a_layer_does_not_lie_over_curves_of_which_some_are_no_strands() {
     let hair = curves("int[] curveVertexCounts = [1, 2]\n point3f[] points = [(9, 3, 0), (9, 1, 0), (12, 1, 0)]");
     let folder = folder(&hair);
     let said = succeed(&folder, "simulate scene.toml -o m.nabiki");
-    assert!(said.contains("  unread  of groom.usda: 1 curves of fewer than two points\n"), "{said}");
+    assert!(said.contains("  ignored in groom.usda: 1 curves of fewer than two points\n"), "{said}");
     for words in ["convert m.nabiki l.usda", "simulate scene.toml -o n.nabiki --export l.usda"] {
         let line = refuse(&folder, &format!("{words} --export-layer /h"));
         assert!(line.contains("l.usda: a layer would not fit the groom: 2 of its 3 points are used"), "{line}");
@@ -74,7 +74,7 @@ fn hair_that_begins_between_frames_says_where_it_goes() {
     );
     let folder = folder(&hair);
     let said = succeed(&folder, "convert groom.usda out.usda");
-    let line = "  unread  of groom.usda: the place of its samples between frames: 1001.500 goes out as frame 1002\n";
+    let line = "  ignored in groom.usda: the time of its samples between frames: 1001.500 is written as frame 1002\n";
     assert!(said.contains(line), "{said}");
 }
 

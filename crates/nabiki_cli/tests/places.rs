@@ -170,10 +170,10 @@ fn one_file_for_two_results() {
     for exports in [[&layer, &roundabout], [&archive, &archive]] {
         let line =
             refuse(&[&simulate[..], &[&cache, "--export", exports[0], "--export", exports[1]]].concat(), &folder);
-        assert!(line.contains(&format!("{}: asked for twice", exports[1])), "{line}");
+        assert!(line.contains(&format!("{}: given twice", exports[1])), "{line}");
     }
     let line = refuse(&[&simulate[..], &[&layer, "--export", &roundabout]].concat(), &folder);
-    assert!(line.contains("asked for twice"), "{line}");
+    assert!(line.contains("given twice"), "{line}");
 }
 
 /// The command with a standard output that nobody reads any more.

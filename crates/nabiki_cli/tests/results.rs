@@ -74,11 +74,11 @@ fn a_lock_that_is_no_file_is_named_and_left() {
     let run = format!("run {GUST} {FEW} --set output.png_frames=true");
     symlink(folder.path().join("elsewhere"), &lock).unwrap();
     let line = refuse(&folder, &run);
-    assert!(line.contains(".nabiki-lock: this is no ordinary file, as a lock is; remove it"), "{line}");
+    assert!(line.contains(".nabiki-lock: this is not a regular file, as a lock must be; remove it"), "{line}");
     assert!(!folder.path().join("elsewhere").exists() && fs::symlink_metadata(&lock).is_ok());
     fs::remove_file(&lock).unwrap();
     pipe(&lock);
-    assert!(refuse(&folder, &run).contains(".nabiki-lock: this is no ordinary file"));
+    assert!(refuse(&folder, &run).contains(".nabiki-lock: this is not a regular file"));
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn two_names_of_one_file_are_not_two_results() {
         ["a.usdc", "b.usdc"],
     ] {
         let line = refuse(&folder, &format!("simulate {GUST} {FEW} -o {output} --export {export}"));
-        assert!(line.contains(&format!("{export}: asked for twice")), "{line}");
+        assert!(line.contains(&format!("{export}: given twice")), "{line}");
     }
     // Where capitals count, these are two.
     succeed(&folder, &format!("simulate {GUST} {FEW} -o one.usdc --export ONE.abc"));
@@ -107,10 +107,10 @@ fn two_names_of_one_file_are_not_two_results() {
     symlink("out/gust.mp4", at("movie.usdc")).unwrap();
     fs::create_dir(at("out")).unwrap();
     let line = refuse(&folder, &format!("run {GUST} {FEW} --export movie.usdc"));
-    assert!(line.contains("movie.usdc: asked for twice"), "{line}");
+    assert!(line.contains("movie.usdc: given twice"), "{line}");
     symlink("out/gust_preview.mp4", at("movie.nabiki")).unwrap();
     let line = refuse(&folder, &format!("preview {GUST} {FEW} --cache movie.nabiki"));
-    assert!(line.contains("movie.nabiki: asked for twice"), "{line}");
+    assert!(line.contains("movie.nabiki: given twice"), "{line}");
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_hard_link_to_what_is_read_is_not_a_result() {
     succeed(&folder, &format!("groom {GUST} --strands 5 -o hair.usdc"));
     fs::hard_link(folder.path().join("hair.usdc"), folder.path().join("same.usdc")).unwrap();
     let line = refuse(&folder, "convert hair.usdc same.usdc");
-    assert!(line.contains("same.usdc: this is read to make the result, which is hair.usdc"), "{line}");
+    assert!(line.contains("same.usdc: this is an input of the result, which is hair.usdc"), "{line}");
 }
 
 #[test]
@@ -138,11 +138,11 @@ fn frames_that_nabiki_did_not_draw_are_left_and_said() {
     }
     let said = run(1, "png_frames");
     assert!(said.contains("removed 1 files of frames after 1 from out/gust_frames"), "{said}");
-    let left = "look    out/gust_frames holds 2 files of frames after 1 that bear no mark of Nabiki's, 0003.png first";
+    let left = "warning out/gust_frames contains 2 files of frames after 1 that nabiki did not write, 0003.png first";
     assert!(said.contains(left), "{said}");
     let said = run(1, "exr_frames");
     assert!(said.contains("removed 1 files of frames after 1 from out/gust_frames"), "{said}");
-    assert!(said.contains("holds 1 file of frames after 1 that bear no mark of Nabiki's, 0003.exr first"), "{said}");
+    assert!(said.contains("contains 1 file of frames after 1 that nabiki did not write, 0003.exr first"), "{said}");
     for name in ["0003.png", "0007.png", "0003.exr"] {
         assert_eq!(fs::read(stills.join(name)).unwrap(), theirs, "{name}");
     }

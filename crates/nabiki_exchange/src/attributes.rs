@@ -303,7 +303,7 @@ fn odd_widths(widths: &[f32]) -> Option<String> {
         return (!widths.is_empty() && widths.iter().all(|&w| w == 0.0))
             .then(|| "widths as diameters: all are 0".to_owned());
     }
-    Some(format!("{odd} of {} widths as diameters: they are below 0 or no finite numbers", widths.len()))
+    Some(format!("{odd} of {} widths as diameters: they are below 0 or not finite", widths.len()))
 }
 
 /// The search of one file for what its curves carry.
@@ -449,7 +449,7 @@ impl<F: NamedValues> Search<'_, F> {
                         }
                     }
                 }
-                None => self.unread.push(format!("{name}, which is of a kind that is not read")),
+                None => self.unread.push(format!("{name}, whose type nabiki does not read")),
             }
         }
         others.sort_by(|a, b| a.name.cmp(&b.name));

@@ -107,7 +107,7 @@ impl Shape {
     pub fn walk_by(self, knots: Vec<Knots>, points: Vec<Vec3>, segments: Option<usize>) -> Result<Polylines, Problem> {
         assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
         if let Some(i) = not_finite(&points) {
-            let way_out = "must be finite: mend it, or take its curve out, where the file was made";
+            let way_out = "must be finite: correct it or remove its curve where the file was made";
             return Err(Problem(format!("point {i} is {}: {way_out}", points[i])));
         }
         if segments == Some(0) {

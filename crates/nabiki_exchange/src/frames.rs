@@ -68,7 +68,7 @@ impl Frames {
         let first = self.times.first().map_or(0.0, |first| first / self.step);
         let off = (self.times.len() > 1 && !self.are_whole()).then(|| {
             // As many digits as `SAME_TIME` tells apart.
-            format!("the place of its samples between frames: {first:.3} goes out as frame {}", first.round())
+            format!("the time of its samples between frames: {first:.3} is written as frame {}", first.round())
         });
         between.into_iter().chain(off).collect()
     }
@@ -92,7 +92,7 @@ mod tests {
         let frames = |first: f64, step: f64| {
             Frames::as_sampled(&[0.0, 1.0, 2.0].map(|n| first + n * step)).unwrap().unread(24.0)
         };
-        assert_eq!(frames(1001.5, 1.0), ["the place of its samples between frames: 1001.500 goes out as frame 1002"]);
+        assert_eq!(frames(1001.5, 1.0), ["the time of its samples between frames: 1001.500 is written as frame 1002"]);
         // Two to a frame are frames themselves.
         assert_eq!(frames(1001.5, 0.5), Vec::<String>::new());
         assert_eq!(frames(1001.0, 1.0), Vec::<String>::new());

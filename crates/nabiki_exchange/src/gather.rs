@@ -82,7 +82,7 @@ impl Gathered {
         let repeated = all.hair.attributes.repeated_ids();
         if repeated > 0 {
             let have = if repeated == 1 { "strand has" } else { "strands have" };
-            let line = format!("an id of its own for each strand: as read, {repeated} {have} the id of another");
+            let line = format!("unique strand ids: as read, {repeated} {have} the id of another");
             all.hair.attributes.unread.push(line);
         }
         if self.short > 0 {
@@ -104,8 +104,9 @@ impl Closed {
     pub fn check(&self, open: usize) -> Result<(), Problem> {
         match self.0.first().filter(|_| open == 0) {
             Some(path) => {
-                let line =
-                    format!("curves {path}: are closed, which no hair is: export them as open (nonperiodic) curves");
+                let line = format!(
+                    "curves {path}: are closed, which hair cannot be: export them as open (nonperiodic) curves"
+                );
                 Err(Problem(line))
             }
             None => Ok(()),
@@ -114,7 +115,7 @@ impl Closed {
 
     /// That they are left out, a phrase each.
     pub fn unread(&self) -> impl Iterator<Item = String> {
-        self.0.iter().map(|path| format!("curves {path}, which are closed, as no hair is"))
+        self.0.iter().map(|path| format!("curves {path}, which are closed, unlike hair"))
     }
 }
 
@@ -250,7 +251,7 @@ mod tests {
         }
         let found = all.hair().unwrap().hair.attributes;
         assert_eq!(found.id, Some(vec![3, 3, 4]));
-        assert_eq!(found.unread, ["an id of its own for each strand: as read, 1 strand has the id of another"]);
+        assert_eq!(found.unread, ["unique strand ids: as read, 1 strand has the id of another"]);
     }
 
     #[test]

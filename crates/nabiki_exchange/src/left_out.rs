@@ -24,6 +24,6 @@ impl LeftOut<'_> {
     /// That they are all that there is; `read`: as above.
     pub fn refused(&self, read: &str) -> Option<Problem> {
         self.paths.first()?;
-        Some(Problem(format!("has {} and no {read}, which alone are read: convert them", self.kind)))
+        Some(Problem(format!("has {}, but nabiki reads only {read}: convert them", self.kind)))
     }
 }

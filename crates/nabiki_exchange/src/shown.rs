@@ -45,7 +45,7 @@ pub fn those_that_show<T>(all: Vec<Candidate<T>>) -> (Vec<T>, Vec<String>) {
     for Candidate { mesh, path, hidden } in all {
         match hidden.iter().find(|hidden| !hidden.at_times) {
             Some(hidden) if any_shows => {
-                unread.push(format!("mesh {path}, which does not show: {}", hidden.reason()));
+                unread.push(format!("mesh {path}, which is hidden: {}", hidden.reason()));
             }
             _ => {
                 unread.extend(hidden.iter().map(Hidden::kept));

@@ -100,7 +100,7 @@ pub fn spread_first_while(
 ) -> Result<Option<Vec<Root>>, SettingError> {
     hairline.check()?;
     check_count(count)?;
-    let bald = || SettingError::new("hair.hairline", "no scalp", "leaves hardly a place for hair: widen it");
+    let bald = || SettingError::new("hair.hairline", "no scalp", "leaves almost no room for hair: widen it");
     let scalp = Scalp::new(head, hairline);
     if scalp.upto.is_empty() {
         return Err(bald());

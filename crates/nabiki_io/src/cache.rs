@@ -38,7 +38,7 @@ const START_TAG: &[u8; 8] = b"start   ";
 /// The block of the sums of header and frames.
 const SUMS_TAG: &[u8; 8] = b"sums    ";
 /// What is said of bytes that have another sum.
-const DAMAGED: &str = "the bytes are not those that were written: the file is damaged; copy it again, or make it again";
+const DAMAGED: &str = "the file is damaged, its checksum does not match; copy it again, or make it again";
 
 /// What is the same in every frame of a cache.
 #[derive(Clone, Debug, PartialEq)]

@@ -95,9 +95,7 @@ impl From<io::Error> for Error {
     fn from(source: io::Error) -> Self {
         let what = match source.kind() {
             io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
-            io::ErrorKind::UnexpectedEof => {
-                "ends before all of it is there: is it being written, or was it cut off?".to_owned()
-            }
+            io::ErrorKind::UnexpectedEof => "ends too early: is it still being written, or was it cut off?".to_owned(),
             _ => source.to_string(),
         };
         Self { what: Self::new(what).what, source: Some(source), file: None, line: None, of_setting: false }

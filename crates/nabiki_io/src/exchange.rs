@@ -65,7 +65,7 @@ impl Opened {
         let metres = contents.meters_per_unit.unwrap_or(0.01);
         // From nanometres to a thousand kilometres: beyond, the numbers of a head leave what f32 can hold.
         if !(1e-9..=1e6).contains(&metres) {
-            let line = format!("metersPerUnit = {metres:e}: must lie in 1e-9..1e6; 0.01 stands for centimetres");
+            let line = format!("metersPerUnit = {metres:e}: must lie in 1e-9..1e6; 0.01 means centimetres");
             return Err(Error::new(line).in_file(&self.path));
         }
         let cm = (metres * 100.0) as f32;
@@ -327,7 +327,7 @@ pub fn check_layer(in_file: Option<u64>, used: usize) -> Result<()> {
         None => refuse("its hair is grown here; leave out --export-layer for a complete stage".to_owned()),
         Some(points) if points != used as u64 => refuse(format!(
             "{used} of its {points} points are used; set hair.join_within = 0 and hair.drop_shorter_than = 0, leave \
-             out hair.strands and hair.segments, and take doubled points and strands without extent out of the file"
+             out hair.strands and hair.segments, and remove duplicate points and strands without length from the file"
         )),
         Some(_) => Ok(()),
     }

@@ -47,11 +47,11 @@ impl GroomCurves {
                 let inverse = only.world_from_curves.inverse();
                 if inverse.is_finite() { Ok(only) } else { refuse("a transform above it flattens space".to_owned()) }
             }
-            [] => refuse("it has no curves over which a layer could lie".to_owned()),
+            [] => refuse("it has no curves for a layer to cover".to_owned()),
             [_] => refuse(format!("its curves are at {list}")),
             several => {
                 let n = several.len();
-                refuse(format!("its curves are in {n} prims ({list}), and a layer lies over one"))
+                refuse(format!("its curves are in {n} prims ({list}), but a layer covers only one"))
             }
         }
     }

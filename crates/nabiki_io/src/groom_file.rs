@@ -53,7 +53,7 @@ impl GroomFile {
         match &mut self.kind {
             _ if groups.is_empty() => return Ok(self),
             Kind::Plain(_) => {
-                let line = "groups has no effect on a file of hair alone: leave it out";
+                let line = "groups has no effect on a file that holds only hair: leave it out";
                 return Err(Error::of_setting(line).in_file(&self.path));
             }
             Kind::Exchange(file) => {

@@ -40,7 +40,7 @@ impl ImportReport {
     /// That strands were turned round, in a line for the user; `None` where none was.
     pub fn turned(&self) -> Option<String> {
         let count = self.tip_first;
-        (count > 0).then(|| format!("{count} strands run from tip to root in the file and are turned round"))
+        (count > 0).then(|| format!("reversed {count} strands that run from tip to root in the file"))
     }
 
     /// What of the file the motion does not obey, in a line for the user; `None` where there is nothing.
@@ -120,7 +120,7 @@ pub fn place_and_clean(read: InPlace, placement: &Placement, cleaning: &Cleaning
     }
     if hair.strands.is_empty() {
         return Err(Error::new(format!(
-            "none of {strands_in_file} strands is left: {} have no extent, {dropped_short} are shorter than {} cm; \
+            "none of {strands_in_file} strands is left: {} have no length, {dropped_short} are shorter than {} cm; \
              check hair.unit, hair.join_within and hair.drop_shorter_than",
             degenerate.dropped_strands, cleaning.drop_shorter_than
         )));

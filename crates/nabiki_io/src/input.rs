@@ -62,7 +62,7 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     let named = |e: std::io::Error| Error::from(e).in_file(path);
     let file = open(path)?;
     let length = file.metadata().map_err(named)?.len();
-    let longer = || Error::new(format!("is longer than {}, which is more than is read", Size(most))).in_file(path);
+    let longer = || Error::new(format!("is longer than {}, the most that nabiki reads", Size(most))).in_file(path);
     if length > most {
         return Err(longer());
     }
@@ -84,7 +84,7 @@ pub fn read_text(path: &Path, most: u64) -> Result<String> {
     }
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
-        Error::new(format!("byte {at} is not text (UTF-8): is this the file that was meant?")).in_file(path)
+        Error::new(format!("byte {at} is not text (UTF-8): is this the right file?")).in_file(path)
     })
 }
 
@@ -118,7 +118,7 @@ mod tests {
         std::fs::write(&path, "1234567").unwrap();
         assert_eq!(read_text(&path, 7).unwrap(), "1234567");
         let refused = |most| read_text(&path, most).unwrap_err().to_string();
-        assert_eq!(refused(6), format!("{}: is longer than 6 bytes, which is more than is read", path.display()));
+        assert_eq!(refused(6), format!("{}: is longer than 6 bytes, the most that nabiki reads", path.display()));
         std::fs::write(&path, b"12\xff").unwrap();
         assert!(refused(7).contains("byte 2 is not text"), "{}", refused(7));
         // A file full of holes is longer than it takes on the disk, and is refused before any of it is read.

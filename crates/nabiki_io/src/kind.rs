@@ -141,7 +141,7 @@ impl FileKind {
             Self::AcclaimSkeleton => in_scene("head.motion.skeleton"),
             Self::Cache => {
                 let file = quoted(&operand(file));
-                format!("nabiki render SCENE --motion {file} draws it, nabiki info {file} looks into it")
+                format!("nabiki render SCENE --motion {file} renders it, nabiki info {file} describes it")
             }
             _ => "give the scene that is meant".to_owned(),
         }

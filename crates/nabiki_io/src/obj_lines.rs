@@ -35,14 +35,14 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Hair> {
     }
     let (joined, closed) = lines.joined(&vertices)?;
     if joined.is_empty() {
-        return Err(Error::new("its l elements are closed lines, which no hair is: the file holds no strands"));
+        return Err(Error::new("its l elements are closed lines, which cannot be hair: the file holds no strands"));
     }
     let mut strands = Strands::with_capacity(joined.len(), joined.iter().map(Vec::len).sum());
     joined.iter().for_each(|strand| strands.push(strand.iter().map(|&v| vertices[v as usize])));
     finite::points(&strands)?;
     let mut hair = Hair::from(strands);
     if closed > 0 {
-        hair.attributes.unread.push(format!("{closed} closed lines, as no hair is"));
+        hair.attributes.unread.push(format!("{closed} closed lines, which cannot be hair"));
     }
     Ok(hair)
 }

@@ -72,7 +72,7 @@ pub(crate) fn texture_coordinates<'a>(
 /// The vertex that `word` (`7`, `-1`, `7/3/2`) names, of `count` so far, from 0.
 pub(crate) fn vertex(word: &str, count: usize, line: &str, number: usize) -> Result<u32> {
     word.split('/').next().and_then(|named| index(named, count)).ok_or_else(|| {
-        refusal(line, number, &format!("\"{word}\" is not one of the {count} vertices that stand before this line"))
+        refusal(line, number, &format!("\"{word}\" is not one of the {count} vertices before this line"))
     })
 }
 
@@ -81,7 +81,7 @@ pub(crate) fn vertex(word: &str, count: usize, line: &str, number: usize) -> Res
 pub(crate) fn texture(word: &str, count: usize, line: &str, number: usize) -> Result<Option<usize>> {
     let Some(named) = word.split('/').nth(1).filter(|named| !named.is_empty()) else { return Ok(None) };
     let found = index(named, count).map(|i| i as usize);
-    let why = || format!("\"{word}\" names none of the {count} texture coordinates that stand before this line");
+    let why = || format!("\"{word}\" names none of the {count} texture coordinates before this line");
     found.map(Some).ok_or_else(|| refusal(line, number, &why()))
 }
 

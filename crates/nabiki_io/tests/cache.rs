@@ -237,7 +237,7 @@ fn any_damage_to_a_cache_is_refused_by_the_frame_or_the_header() {
         Ok::<_, String>(frames)
     };
     assert!(read(&bytes).unwrap().iter().all(Result::is_ok));
-    let way_out = "the bytes are not those that were written: the file is damaged; copy it again, or make it again";
+    let way_out = "the file is damaged, its checksum does not match; copy it again, or make it again";
     let first_frame = bytes.len() - 3 * 136;
     let mut damaged = bytes.clone();
     for at in 0..bytes.len() {

@@ -268,7 +268,7 @@ fn what_of_a_layers_meshes_is_left_out_is_reported() {
     let text = format!("#usda 1.0\n{}{}", mesh("head", ""), mesh("low", "uniform token purpose = \"proxy\""));
     std::fs::write(&file, text).unwrap();
     let (mesh, report) = mesh::import(&file, &Placement::default(), &[]).unwrap();
-    let said = "mesh /low, which does not show: purpose of /low is \"proxy\"";
+    let said = "mesh /low, which is hidden: purpose of /low is \"proxy\"";
     assert_eq!((mesh.triangles.len(), report.unread), (1, vec![said.to_owned()]));
     let info = ExchangeInfo::of_file(&file).unwrap().to_string();
     assert!(info.lines().any(|line| line == format!("not read: {said}")), "{info}");

@@ -188,7 +188,7 @@ fn placement_and_cleaning_are_counted() {
     assert_eq!(hair.strands.points(), [glam::Vec3::ZERO, glam::Vec3::new(0.0, 50.0, 0.0)]);
     let all_too_short = hair::Cleaning { drop_shorter_than: 60.0, ..cleaning };
     let error = hair::import(&path, &metres, &all_too_short).unwrap_err().to_string();
-    assert!(error.contains("none of 3 strands is left: 1 have no extent, 2 are shorter than 60 cm"), "{error}");
+    assert!(error.contains("none of 3 strands is left: 1 have no length, 2 are shorter than 60 cm"), "{error}");
 }
 
 /// Bytes of a file: words, then singles.

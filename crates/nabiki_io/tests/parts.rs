@@ -71,7 +71,7 @@ fn groups_choose_curves_of_a_layer_alike() {
     assert!(refused.ends_with("groom.usda: group \"hiar\" is not in the file; did you mean \"hair\"?"), "{refused}");
     let plain = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files/groom.hair");
     let refused = GroomFile::open(&plain).unwrap().keep(&["hair".to_owned()]).err().unwrap().to_string();
-    assert!(refused.ends_with("groups has no effect on a file of hair alone: leave it out"), "{refused}");
+    assert!(refused.ends_with("groups has no effect on a file that holds only hair: leave it out"), "{refused}");
 }
 
 #[test]

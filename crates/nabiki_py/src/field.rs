@@ -15,15 +15,15 @@ use crate::hints::{Forces, Given};
 use crate::numbers::Strongest;
 use crate::values::shown;
 
-/// A field of force that a Python function answers.
+/// A field of force computed by a Python function.
 ///
-/// `function(points, frame)` gets points (N, 3) float32 (cm, in the space of the forces: the world, or head space where
-/// `motion.force_space` says so) and the number of the frame, and returns forces (N, 3), or one (3,) for all of them. The
-/// force at a point may depend on the point and the frame only. No force may be longer than `strongest`, by which a field
-/// too strong for the hair is refused before the first frame.
+/// `function(points, frame)` receives points (N, 3) float32 and the frame number. Points are in cm in the space of the
+/// forces: the world, or head space if `motion.force_space` is "head". It returns forces (N, 3), or one (3,) for all
+/// points. A force may depend only on the point and the frame. No force may be longer than `strongest`, which lets
+/// nabiki refuse a field that is too strong for the hair before the first frame.
 ///
-/// This is slow: the function is called for sixteen points at a time, some 20 times as long as the step of hair without it.
-/// What can be said with the scene's own fields should be.
+/// This is slow, some 20 times the step of the hair without it: the function is called for 16 points at a time. Use the
+/// fields of the scene where possible.
 #[pyclass(frozen, module = "nabiki")]
 pub struct Field {
     pub shared: Arc<PythonField>,
@@ -48,7 +48,7 @@ impl Field {
         self.shared.function.clone_ref(py)
     }
 
-    /// A bound on the length of its forces.
+    /// The bound on the length of the forces.
     #[getter]
     fn strongest(&self) -> f32 {
         self.shared.strongest
@@ -144,7 +144,7 @@ impl PythonField {
             let strength = force.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>().sqrt();
             if strength.is_nan() || strength > most {
                 let way_out = if strength.is_nan() {
-                    format!("is no number in frame {frame}: let the function return finite forces")
+                    format!("is not finite in frame {frame}: let the function return finite forces")
                 } else {
                     format!("is above its bound in frame {frame}: give Field(function, strongest=...) a larger one")
                 };

@@ -16,12 +16,12 @@ use crate::numbers::{FirstFrame, FrameNumber, Segments};
 use crate::values::shown;
 use crate::watched::{Ears, watched};
 
-/// Reads hair of one format and writes it in another: .hair, .tfx, .obj, .usda, .usdc, .abc, or frames of a motion cache,
+/// Converts hair from one format to another: .hair, .tfx, .obj, .usda, .usdc, .abc, or frames of a motion cache,
 /// .nabiki.
 ///
-/// `frame`: this frame alone. `segments`: cuts every strand anew into so many. `unit` and `z_up`: what the input does not say
-/// of itself, for a USD layer to name. `layer`: the prim path of the groom over which samples alone are laid. `first_frame`: number of
-/// the first frame on the time line of the output, in the place of the input's own.
+/// `frame`: only this frame. `segments`: resample each strand to this many. `unit` and `z_up`: what the input does not
+/// contain, to be named in a USD layer. `layer`: the prim path of the groom that a layer of samples covers.
+/// `first_frame`: number of the first frame on the time line of the output, instead of that of the input.
 #[pyfunction]
 #[pyo3(signature = (input, output, *, frame=None, segments=None, unit=None, z_up=false, layer=None,
     first_frame=None, progress=None, report=None))]
@@ -56,7 +56,7 @@ fn unit_of(Given(given, _): &Given<'_, UnitName>) -> PyResult<Unit> {
     text.parse().map_err(|refused: String| error::line(given.py(), format!("unit = {text}: {refused}")))
 }
 
-/// What is in a scene, hair file, cache or mesh, as a dictionary; its `kind` says which.
+/// What a scene, hair file, cache or mesh contains, as a dictionary. `kind` names the kind of file.
 #[pyfunction]
 #[pyo3(signature = (file))]
 pub fn info(py: Python<'_>, file: PathBuf) -> PyResult<Hinted<'_, Dictionary>> {
@@ -65,9 +65,9 @@ pub fn info(py: Python<'_>, file: PathBuf) -> PyResult<Hinted<'_, Dictionary>> {
     py.import("json")?.call_method1("loads", (text,)).map(Hinted::new)
 }
 
-/// Writes a commented scene to begin with, about a head and hair of files or the built-in ones.
+/// Writes a new scene with comments, for head and hair from files or the built-in ones.
 ///
-/// `groups`: those of the head's file to keep. `replace`: whether a scene that is there already is replaced.
+/// `groups`: the groups of the head's file to use. `replace`: whether to replace an existing scene.
 #[pyfunction]
 #[pyo3(signature = (file, *, head=None, groups=Vec::new(), hair=None, replace=false,
     report=None))]
@@ -90,8 +90,8 @@ pub fn new(
     watched(py, ears, &[], |watch| tasks::new(&file, &options, watch))
 }
 
-/// Writes hair that stands still: points (P, 3), strand after strand, and offsets (S + 1,), into a .hair, .tfx, .usda, .usdc or
-/// .abc file. `unit` and `z_up` are named in a USD layer.
+/// Writes hair at rest to a .hair, .tfx, .usda, .usdc or .abc file. The hair is points (P, 3), strand after strand, and
+/// offsets (S + 1,). `unit` and `z_up` are named in a USD layer.
 #[pyfunction]
 #[pyo3(signature = (file, points, offsets, *, unit=None, z_up=false))]
 pub fn write_hair(

@@ -23,14 +23,15 @@ pub struct Frame {
 
 #[pymethods]
 impl Frame {
-    /// The points of all strands, one strand after another, root first: (P, 3) float32, head space, cm. Read-only, and no
-    /// copy: the array is the memory that the frame was computed into, and keeps it alive. `points.copy()` may be changed.
+    /// The points of all strands, strand after strand, root first: (P, 3) float32, head space, cm. Read-only and
+    /// without a copy: the array is the memory that the frame was computed into, and keeps it alive. To write, use
+    /// `points.copy()`.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Hinted<'py, Float32> {
         Hinted::new(arrays::flat(self.points.bind(py)))
     }
 
-    /// Where strands begin in `points`, and at last where they end: (S + 1,) uint32. Strand s is
+    /// Where strands begin in `points`, with the end as the last value: (S + 1,) uint32. Strand s is
     /// `points[offsets[s]:offsets[s + 1]]`.
     #[getter]
     fn offsets<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
@@ -43,7 +44,8 @@ impl Frame {
         self.number
     }
 
-    /// Where the head is: (4, 4) float64, takes points of head space into the world (cm), `points @ m[:3, :3].T + m[:3, 3]`.
+    /// The pose of the head: a (4, 4) float64 matrix from head space into the world (cm). Apply it as
+    /// `points @ m[:3, :3].T + m[:3, 3]`.
     #[getter]
     fn head_pose<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Float64>> {
         let pose = self.pose;

@@ -15,7 +15,7 @@ pub fn numbers<'py>(thing: &str, given: &Bound<'py, PyAny>, kind: &str) -> PyRes
     let made = |given: &Bound<'py, PyAny>, arguments: (&Bound<'py, PyAny>, Option<&str>)| {
         let made = numpy.call_method1(intern!(py, "asarray"), arguments);
         let type_ = given.get_type().name().map_or_else(|_| String::new(), |name| name.to_string());
-        made.map_err(|e| refused(type_, &format!("is no array of numbers: {}", e.value(py))))
+        made.map_err(|e| refused(type_, &format!("is not an array of numbers: {}", e.value(py))))
     };
     check_depth(thing, given, 0)?;
     let array = made(given, (given, None))?;

@@ -94,7 +94,7 @@ pub fn of_matrix([x, y, z, last]: [[f64; 4]; 4]) -> Result<(DVec3, DQuat), NoPos
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let lengths = axes.map(DVec3::length);
     if lengths.iter().any(|length| (length - 1.0).abs() > NEAR) {
-        let way_out = "must turn and move alone: divide each column by its length, and scale the mesh";
+        let way_out = "must only rotate and move: divide each column by its length, and scale the mesh";
         return Err((
             format!("a matrix that scales by {:.4}, {:.4}, {:.4}", lengths[0], lengths[1], lengths[2]),
             way_out,
@@ -103,11 +103,11 @@ pub fn of_matrix([x, y, z, last]: [[f64; 4]; 4]) -> Result<(DVec3, DQuat), NoPos
     let cosines = [axes[0].dot(axes[1]), axes[1].dot(axes[2]), axes[2].dot(axes[0])];
     if let Some(cosine) = cosines.iter().find(|cosine| cosine.abs() > NEAR) {
         let angle = cosine.clamp(-1.0, 1.0).acos().to_degrees();
-        let way_out = "must turn and move alone: its columns are to be normal to one another";
+        let way_out = "must only rotate and move: its columns must be orthogonal";
         return Err((format!("a matrix that shears, with {angle:.1} degrees between two columns"), way_out));
     }
     if matrix.determinant() < 0.0 {
-        return Err(("a matrix that mirrors".to_owned(), "must turn and move alone: change the sign of one column"));
+        return Err(("a matrix that mirrors".to_owned(), "must only rotate and move: change the sign of one column"));
     }
     Ok((position, DQuat::from_mat3(&matrix).normalize()))
 }

@@ -24,7 +24,7 @@ use crate::scene::given::{HAIR_FILE, HAIR_ROOT, setting};
 use crate::values;
 use crate::watched::{Ears, watched};
 
-/// Everything that decides a movie. `scene["motion.frames"]` is a setting by the key that it has in a scene file.
+/// Everything that decides a movie. `scene["motion.frames"]` is a setting by its key in a scene file.
 #[pyclass(frozen, subclass, module = "nabiki")]
 #[derive(Default)]
 pub struct Scene(Mutex<State>);
@@ -161,7 +161,7 @@ impl Scene {
         Self::default()
     }
 
-    /// Reads a scene file. `settings` are put in their places by their keys before anything is read: `{"motion.frames": 50}`.
+    /// Reads a scene file. `settings` replaces settings by key before the scene is checked: `{"motion.frames": 50}`.
     #[classmethod]
     #[pyo3(signature = (path, settings=None))]
     fn open<'py>(
@@ -188,7 +188,7 @@ impl Scene {
         Self::another(class, State { scene, made, ..State::default() }).map(Hinted::new)
     }
 
-    /// Reads the text of a scene file; `path` names it in errors, and paths in it are relative to the folder of `path`.
+    /// Reads the text of a scene file. `path` names the file in errors; relative paths start from its folder.
     #[classmethod]
     #[pyo3(signature = (text, path=PathBuf::new()))]
     fn parse<'py>(class: &Bound<'py, PyType>, text: &str, path: PathBuf) -> PyResult<Hinted<'py, SameClass>> {
@@ -197,7 +197,7 @@ impl Scene {
         Self::another(class, State { scene, ..State::default() }).map(Hinted::new)
     }
 
-    /// The same scene once more, to be changed by itself.
+    /// An independent copy of the scene.
     fn copy<'py>(this: &Bound<'py, Self>) -> PyResult<Hinted<'py, SameClass>> {
         let state = this.get().state().clone();
         Self::another(&this.get_type(), state).map(Hinted::new)
@@ -216,8 +216,7 @@ impl Scene {
     fn __reduce__<'py>(this: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, OsString))> {
         let (py, scene) = (this.py(), this.get());
         if !scene.functions().is_empty() {
-            let line = "the fields of this scene are functions of Python, which stay in their process: \
-                        send a scene without them, and give it there its fields";
+            let line = "this scene has Python functions as fields, which cannot leave their process: send a scene without them, and add its fields there";
             return Err(error::line(py, line));
         }
         // The other process had better not find out what is wrong: a pool that cannot read what it was sent says nothing.
@@ -225,20 +224,20 @@ impl Scene {
         Ok((this.get_type().getattr("parse")?, (text, file)))
     }
 
-    /// Its file, or nothing for a scene made in code.
+    /// The file of the scene. None for a scene made in code.
     #[getter]
     fn file(&self) -> Option<OsString> {
         let file = self.state().scene.file().as_os_str().to_owned();
         (!file.is_empty()).then_some(file)
     }
 
-    /// Every setting with the value that it has, given or not: what a file that says everything would hold.
+    /// All settings with their values, as a dictionary, whether given or default.
     fn settings<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Dictionary>> {
         values::dict(py, &self.now().settings().map_err(|refused| Self::refused(py, refused))?).map(Hinted::new)
     }
 
-    /// The value of a setting, `scene["force[0].vector"]`; None where it has none, or its table is not in the scene. What no setting is
-    /// called is refused.
+    /// The value of a setting, `scene["force[0].vector"]`. None if it has no value or its table is not in the scene. An
+    /// unknown key raises an error.
     fn __getitem__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Hinted<'py, Anything>> {
         match self.now().setting(key).map_err(|refused| Self::refused(py, refused))? {
             Some(value) => values::to_python(py, &value).map(Hinted::new),
@@ -246,8 +245,8 @@ impl Scene {
         }
     }
 
-    /// Gives a setting another value; None takes it out, so that it is what it is when nobody says. Meshes may be files or
-    /// (points, faces), `hair.file` may be (points, offsets), motions may be matrices (frames, 4, 4).
+    /// Sets a setting. None restores its default. Meshes may be files or (points, faces), `hair.file` may be (points,
+    /// offsets), motions may be matrices (frames, 4, 4).
     fn __setitem__(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         let mut files = Files::default();
         let value = match value {
@@ -257,7 +256,7 @@ impl Scene {
         self.put(py, key, value, files)
     }
 
-    /// Takes a setting, a table or an entry of a list out.
+    /// Removes a setting, a table or an entry of a list.
     fn __delitem__(&self, py: Python<'_>, key: &str) -> PyResult<()> {
         self.put(py, key, None, Files::default())
     }
@@ -276,14 +275,14 @@ impl Scene {
         state.fields = fields;
     }
 
-    /// The scene as TOML: the text it was read from with what has changed since in its place, comments as they were. What no file
-    /// can say is refused.
+    /// The scene as TOML: the text that it was read from, with the changes and with its comments. Raises an error for
+    /// what a file cannot contain.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         let scene = self.writable(py)?;
         scene.text_to_be(scene.file()).map_err(|refused| Self::refused(py, refused))
     }
 
-    /// Writes it, comments and layout as they were; paths lead where they led. From then on `path` is its file.
+    /// Writes the scene with its comments and layout, and adjusts relative paths. `path` becomes the file of the scene.
     #[pyo3(signature = (path))]
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let scene = self.writable(py)?;
@@ -295,7 +294,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether both mean the same, wherever they came from: settings, functions as fields, and the files that are named.
+    /// Whether both scenes mean the same: settings, functions as fields, and named files.
     fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
         let same = anywhere(self.now()) == anywhere(other.now());
         let (fields, others) = (self.functions(), other.functions());
@@ -319,8 +318,8 @@ impl Scene {
         }
         Err(error::line(
             py,
-            "a scene file names files, and this scene has hair, meshes or motion of arrays: write them with \
-             nabiki.write_hair, with any writer of meshes, or as a table of poses, and give the scene these files",
+            "a scene file can only name files, but this scene has hair, meshes or motion from arrays: write them to files \
+             (hair with nabiki.write_hair), and give the scene those files",
         ))
     }
 }

@@ -22,10 +22,10 @@ use crate::threads::{alone, detached};
 use crate::watched::{Ears, watched};
 use crate::way::{self, Told, Way};
 
-/// The motion of a scene's hair: an iterator over its frames, from rest, frame 0, to the last. Each is computed when it is
-/// asked for; those that nobody keeps take no memory. `len()` is the number of all frames.
+/// The motion of a scene's hair: an iterator over its frames, from the rest frame 0 to the last. Each frame is computed
+/// on request. Frames that you drop take no memory. `len()` is the number of all frames.
 ///
-/// `step` is the same for who decides on the way: it goes on to the next frame, with a head, bodies and a force that are told.
+/// `step` advances with a head, bodies and a force that you decide step by step.
 #[pyclass(frozen, module = "nabiki")]
 pub struct Simulation {
     built: Arc<BuiltScene>,
@@ -70,7 +70,7 @@ impl Force {
             return Ok(force);
         }
         let way_out = format!(
-            "is above {most}, the strongest under which this hair can be stepped: give a weaker one, or a smaller \
+            "is above {most}, the strongest that this hair allows: give a weaker one, or a smaller \
              motion.time_step"
         );
         Err(error::argument(given.py(), "force of strength", strength, &way_out))
@@ -183,13 +183,13 @@ impl Simulation {
         }
     }
 
-    /// Goes on to the next frame, the first of all being 1, and beyond the scene's last one if asked to. What is not told is as
-    /// the scene has it in that frame.
+    /// Advances to the next frame. The first is 1, and you may step beyond the scene's last frame. What you leave out
+    /// follows the scene.
     ///
-    /// `head`: where the head is in the world (cm), a (4, 4) matrix that takes points of head space there, or (position,
-    /// quaternion (x, y, z, w)). `bodies`: the same of the scene's bodies, in their order, None for those that are not told.
-    /// `force`: what pulls in the place of all the scene's fields, a vector or a `Field`. `jumped`: head and bodies came at once
-    /// where they are, and hair goes along without feeling it.
+    /// `head`: where the head is in the world (cm), as a (4, 4) matrix from head space or (position, quaternion (x, y,
+    /// z, w)). `bodies`: the same for the scene's bodies, in order, None for those that follow the scene. `force`:
+    /// replaces all fields of the scene, a vector or a `Field`. `jumped`: head and bodies moved there at once, and the
+    /// hair goes along without feeling it.
     #[pyo3(signature = (*, head=None, bodies=None, force=None, jumped=false))]
     fn step(
         &self,
@@ -208,7 +208,8 @@ impl Simulation {
         self.stepped(py, &mut place, Told { head, bodies, jumped }, force)
     }
 
-    /// Where it stands: hair, head and bodies, as bytes for `restore`. They may go to a file and to another process or machine.
+    /// The state of hair, head and bodies, as bytes for `restore`. You may store them or send them to another process
+    /// or machine.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let place = self.sound()?;
         let Place { stepper, next, way, shown, .. } = &*place;
@@ -219,8 +220,8 @@ impl Simulation {
         Ok(PyBytes::new(py, &way.bytes(*next, &hair)))
     }
 
-    /// Stands where the simulation of the same hair stood that gave this `state`, and returns the frame that it was at. It goes
-    /// on to the same bits, if its scene has the same settings; they may be others.
+    /// Goes back to a `state` of a simulation of the same hair and returns its frame. With the same settings, the
+    /// motion continues bit for bit. Other settings are allowed.
     fn restore(&self, py: Python<'_>, state: &[u8]) -> PyResult<Frame> {
         let mut place = self.place()?;
         let refused = |(value, way_out): (String, String)| error::argument(py, "state of hair", value, &way_out);
@@ -231,7 +232,7 @@ impl Simulation {
         self.frame(py, &place)
     }
 
-    /// Another one that stands where this one stands, and goes on by itself; it shares all that no frame changes.
+    /// An independent simulation from the current frame. It shares everything that no frame changes.
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
         let place = self.sound()?;
         let Place { stepper, next, way, shown, failed } = &*place;
@@ -251,7 +252,7 @@ impl Simulation {
         self.copy(py)
     }
 
-    /// The strongest force under which this hair can be stepped; winds that look like winds are a hundredth of it or less.
+    /// The strongest force for which the step is stable. Normal winds are a hundredth of it or less.
     #[getter]
     fn strongest_force(&self) -> PyResult<f32> {
         Ok(self.place()?.stepper.strongest_force())
@@ -270,19 +271,19 @@ impl Simulation {
         format!("<nabiki.Simulation {}; {at}>", said::motion(&self.built))
     }
 
-    /// Frames that are still to come, for bars of progress.
+    /// The number of frames still to come, for progress bars.
     fn __length_hint__(&self) -> PyResult<usize> {
         let next = self.place()?.next;
         Ok((self.built.frames() + 1).saturating_sub(next) as usize)
     }
 
-    /// Where strands begin in the points of each frame, and at last where they end: (S + 1,) uint32.
+    /// Where strands begin in the points of each frame, with the end as the last value: (S + 1,) uint32.
     #[getter]
     fn offsets<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
         Hinted::new(self.offsets.bind(py).clone())
     }
 
-    /// The number of each strand in the whole hair of the scene: (S,) uint32.
+    /// The number of each strand among all strands of the scene: (S,) uint32.
     #[getter]
     fn ids<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
         Hinted::new(PyArray1::from_slice(py, &self.built.groom.ids))

@@ -11,7 +11,7 @@ fn in_file(number: f32) -> f64 {
     number.to_string().parse().unwrap_or(f64::from(number))
 }
 
-/// The wind that was found for some wishes.
+/// The wind found for some wishes.
 #[pyclass(frozen, module = "nabiki")]
 pub struct Solution {
     pub scene: Py<PyAny>,
@@ -20,13 +20,13 @@ pub struct Solution {
 
 #[pymethods]
 impl Solution {
-    /// The scene with the settings that were found.
+    /// The scene with the new settings.
     #[getter]
     fn scene<'py>(&self, py: Python<'py>) -> Hinted<'py, SceneClass> {
         Hinted::new(self.scene.bind(py).clone())
     }
 
-    /// The intervals of the force that was found: (last frame, vector) each.
+    /// The intervals of the new force: (last frame, vector) each.
     #[getter]
     fn forces(&self) -> Vec<(u32, (f64, f64, f64))> {
         self.solved
@@ -38,25 +38,25 @@ impl Solution {
             .collect()
     }
 
-    /// How far the hair was from the wishes (root mean square, cm).
+    /// Distance of the hair from the wishes before (root mean square, cm).
     #[getter]
     fn before_cm(&self) -> f64 {
         self.solved.report.before_cm
     }
 
-    /// How far it is now (root mean square, cm).
+    /// Distance of the hair from the wishes after (root mean square, cm).
     #[getter]
     fn after_cm(&self) -> f64 {
         self.solved.report.after_cm
     }
 
-    /// Whether every wish is met within half a centimetre.
+    /// Whether each wish is met to within half a centimetre.
     #[getter]
     fn all_met(&self) -> bool {
         self.solved.all_met()
     }
 
-    /// Of each wish and nail its name, `before_cm` and `after_cm`.
+    /// For each wish and nail: its name, `before_cm` and `after_cm`.
     #[getter]
     fn wishes<'py>(&self, py: Python<'py>) -> PyResult<Hinted<'py, Dictionaries>> {
         let all = self.solved.names.iter().zip(&self.solved.report.wishes);
@@ -71,7 +71,7 @@ impl Solution {
         Ok(Hinted::new(found))
     }
 
-    /// What the command prints of it.
+    /// The text that the command prints.
     fn __str__(&self) -> String {
         self.solved.to_string().trim().to_owned()
     }

@@ -33,9 +33,9 @@ pub fn alone<'a, T>(shared: &'a Mutex<T>, thing: &str, method: &str) -> PyResult
     match shared.try_lock() {
         Ok(free) => Ok(free),
         Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-        Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(format!(
-            "this {thing} is at work: give each thread one of its own, scene.{method}()"
-        ))),
+        Err(TryLockError::WouldBlock) => {
+            Err(PyRuntimeError::new_err(format!("this {thing} is in use: give each thread its own, scene.{method}()")))
+        }
     }
 }
 

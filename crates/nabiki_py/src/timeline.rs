@@ -17,7 +17,7 @@ use crate::scene::said;
 use crate::threads::{alone, detached};
 use crate::watched::{Ears, watched};
 
-/// A motion at hand: any frame of it, or all of them at once. Python's own class makes a sequence of it.
+/// A motion with random access: any frame of it, or all at once.
 #[pyclass(frozen, module = "nabiki")]
 pub struct Timeline {
     built: Arc<BuiltScene>,
@@ -62,7 +62,7 @@ impl Timeline {
         Ok(Hinted::new(arrays::film(&Bound::new(py, Points::new(film, None))?, frames)))
     }
 
-    /// Any frame, computed from the one before it that was asked for last.
+    /// Any frame, computed from the latest requested one before it.
     fn frame(&self, py: Python<'_>, number: FrameNumber) -> PyResult<Frame> {
         let (number, last) = (number.0, self.built.frames());
         if number > last {
@@ -79,13 +79,13 @@ impl Timeline {
         self.built.frames() as usize + 1
     }
 
-    /// Where strands begin in the points of each frame, and at last where they end: (S + 1,) uint32.
+    /// Where strands begin in the points of each frame, with the end as the last value: (S + 1,) uint32.
     #[getter]
     fn offsets<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
         Hinted::new(self.offsets.bind(py).clone())
     }
 
-    /// The number of each strand in the whole hair of the scene: (S,) uint32.
+    /// The number of each strand among all strands of the scene: (S,) uint32.
     #[getter]
     fn ids<'py>(&self, py: Python<'py>) -> Hinted<'py, UInt32> {
         Hinted::new(PyArray1::from_slice(py, &self.built.groom.ids))

@@ -102,7 +102,7 @@ impl Walk {
                 Ok(())
             }
             None => {
-                let way_out = format!("holds more than {MOST} numbers and words, which is more than is read");
+                let way_out = format!("holds more than {MOST} numbers and words, the most that nabiki reads");
                 Err(error::argument(value.py(), key, format!("a {}", value.get_type().name()?), &way_out))
             }
         }
@@ -152,7 +152,7 @@ impl Walk {
                     .map(Value::Array)
             });
         }
-        Err(PyTypeError::new_err(format!("{key}: {} is no value of a setting", value.get_type().name()?)))
+        Err(PyTypeError::new_err(format!("{key}: {} is not a value of a setting", value.get_type().name()?)))
     }
 
     /// A dictionary as a table.

@@ -55,7 +55,7 @@ pub fn check_body(built: &BuiltScene, body: usize) -> Result<(), String> {
     match (&built.dynamics.form, number(felt(built), body)) {
         (_, Some(_)) => Ok(()),
         _ if body >= there => Err(format!("the scene has {there} bodies: scene.bodies has to name all of them")),
-        (Form::Paper, _) => Err("hair feels bodies in the free form alone: set motion.form = \"free\"".to_owned()),
+        (Form::Paper, _) => Err("hair feels bodies only in the free form: set motion.form = \"free\"".to_owned()),
         (Form::Free(_), _) => Err(format!("hair does not feel it: set body[{body}].solid = true, or give None")),
     }
 }
@@ -127,7 +127,7 @@ impl Way {
     pub fn of_bytes<'a>(&self, bytes: &'a [u8]) -> Result<(Self, u32, &'a [u8]), (String, String)> {
         let refused = |way_out: &str| Err((format!("{} bytes", bytes.len()), way_out.to_owned()));
         let Some(rest) = bytes.strip_prefix(&MAGIC) else {
-            return refused("are none that state() wrote");
+            return refused("were not written by state()");
         };
         let words =
             |bytes: &[u8]| -> Vec<u32> { bytes.as_chunks().0.iter().map(|&word| u32::from_le_bytes(word)).collect() };
@@ -139,10 +139,10 @@ impl Way {
         };
         let words = words(own);
         if checksum(&words[..count]) != words[count] {
-            return refused("are not as they were written: their checksum does not fit");
+            return refused("are altered: their checksum does not match");
         }
         if hair.len() / 4 != words[2] as usize {
-            return refused("are cut short, or have others behind them");
+            return refused("are cut short, or followed by others");
         }
         if bodies != self.bodies.len() {
             let way_out =

@@ -200,11 +200,11 @@ def test_what_cannot_be_told_is_refused_and_nothing_has_happened():
         (lambda: hair.step(force=(0, numpy.inf, 0)), "finite"),
         (lambda: hair.step(force=(1e9, 0, 0)), f"{hair.strongest_force:g}"[:3]),
         (lambda: hair.step(force=nabiki.Field(lambda points, frame: (0, 0, 0), strongest=1e9)), "time_step"),
-        (lambda: hair.restore(b"nothing"), "state of hair = 7 bytes: are none"),
+        (lambda: hair.restore(b"nothing"), "state of hair = 7 bytes: were not"),
         (lambda: hair.restore(state[:30]), "cut short"),
         (lambda: hair.restore(cut), "cut short"),
         (lambda: hair.restore(state[:-4]), "cut short"),
-        (lambda: hair.restore(state + bytes(4)), "others behind them"),
+        (lambda: hair.restore(state + bytes(4)), "followed by others"),
         (lambda: hair.restore(altered), "checksum"),
         (lambda: hair.restore(block), "checksum"),
         (lambda: scene.simulate(strands=21).restore(state), "other hair"),
@@ -250,7 +250,7 @@ def test_threads_have_simulations_of_their_own():
 
     def wind(points, frame):
         for ask in (hair.step, hair.state, hair.copy, lambda: hair.restore(state)):
-            with pytest.raises(RuntimeError, match=r"each thread one of its own, scene\.simulate\(\)"):
+            with pytest.raises(RuntimeError, match=r"each thread its own, scene\.simulate\(\)"):
                 ask()
         refused.append(frame)
         return 0, 0, 0

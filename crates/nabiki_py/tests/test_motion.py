@@ -119,7 +119,7 @@ def test_a_motion_that_is_at_work_says_so_and_still_says_what_it_is(gust, kind):
     heard = []
 
     def wind(points, frame):
-        with pytest.raises(RuntimeError, match=rf"each thread one of its own, scene\.{kind}\(\)"):
+        with pytest.raises(RuntimeError, match=rf"each thread its own, scene\.{kind}\(\)"):
             ask()
         heard.append((len(motion), len(motion.offsets), len(motion.ids)))
         return 0, 0, 0

@@ -273,7 +273,7 @@ def test_what_cannot_be_sent_is_refused_where_it_is(gust):
         pickle.dumps(gust)
     gust.output.sheet = [0]
     gust.fields = [nabiki.Field(lambda points, frame: (1, 0, 0), strongest=1)]
-    with pytest.raises(nabiki.Error, match="functions of Python"):
+    with pytest.raises(nabiki.Error, match="Python functions"):
         pickle.dumps(gust)
     assert len(copy.copy(gust).fields) == 1
 

@@ -48,10 +48,10 @@ fn a_new_scene_takes_what_is_stated_and_guesses_the_rest() {
         ("heads/sintel_collider.obj", 100.0, Some("head.unit = \"m\", by the size of the head")),
         ("heads/makehuman_base.obj", 10.0, Some("head.unit = \"dm\", by the size of the head")),
         // A head is about 4.5 of its units tall, which is no unit.
-        ("heads/lps_head.obj", 5.0, Some("head.unit = 5 (cm): in no unit that has a name")),
+        ("heads/lps_head.obj", 5.0, Some("head.unit = 5 (cm): no named unit")),
         // No skulls of persons: a character of 0.91 m.
         ("hair/ratboy_body.tfxmesh", 100.0, Some("head.unit = \"m\", by how tall the mesh is")),
-        ("heads/sintel_eyes.obj", 1.0, Some("head.unit = \"cm\": in no unit is it as tall")),
+        ("heads/sintel_eyes.obj", 1.0, Some("head.unit = \"cm\": no unit gives it the height")),
         // glTF is in metres.
         ("heads/suzanne.glb", 100.0, None),
         ("motion/fox.glb", 100.0, None),

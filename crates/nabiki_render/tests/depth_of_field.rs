@@ -287,6 +287,6 @@ fn lenses_that_cannot_be_are_refused_in_a_line() {
     lost.camera.focus_distance = Some(1.0);
     let mut renderer = Renderer::new(&lost, &octahedron()).unwrap();
     let error = renderer.draw(&FrameToDraw::at_rest(&upright(0.0), view(&lost))).unwrap_err().to_string();
-    assert!(error.starts_with("picture.camera.f_stop = 0.1: with all sharp at 1 cm"), "{error}");
+    assert!(error.starts_with("picture.camera.f_stop = 0.1: with focus at 1 cm"), "{error}");
     assert!(error.contains("set picture.camera.focus_distance") && error.lines().count() == 1, "{error}");
 }

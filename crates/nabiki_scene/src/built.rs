@@ -134,7 +134,7 @@ impl Shown {
             Self::First(count) if count <= of_scene => Ok(count),
             Self::First(count) => {
                 let more = if grown { format!(", or grow more with hair.strands = {count}") } else { String::new() };
-                let line = format!("{count} strands are asked for and the scene has {of_scene}: ask for fewer{more}");
+                let line = format!("{count} strands requested, but the scene has {of_scene}: request fewer{more}");
                 Err(Error::refused(line))
             }
         }

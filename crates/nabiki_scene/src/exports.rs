@@ -34,17 +34,16 @@ impl ExportOptions {
     pub fn check(&self) -> Result<()> {
         if let (Some(prim), []) = (&self.layer, &self.files[..]) {
             return Err(Error::refused(format!(
-                "--export-layer {prim}: give the layer's file, too: --export FILE.usdc"
+                "--export-layer {prim}: also give the layer's file: --export FILE.usdc"
             )));
         }
         if let (true, Some(prim)) = (self.head, &self.layer) {
             return Err(Error::refused(format!(
-                "--export-head: a layer over {prim} holds samples of the hair alone; leave one of the two out"
+                "--export-head: a layer over {prim} contains only samples of the hair; leave out one of the two"
             )));
         }
         if self.head && self.files.is_empty() {
-            let line =
-                "--export-head: puts the head beside moving hair, and none is written: give --export FILE.usdc, too";
+            let line = "--export-head: adds the head to moving hair, but none is written: also give --export FILE.usdc";
             return Err(Error::refused(line));
         }
         self.files.iter().try_for_each(|file| {

@@ -80,14 +80,14 @@ fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
     };
     let way_out = match neighbours.map(|neighbours| &neighbours.forces) {
         Some(forces) => format!(
-            "the pressure of hair against hair has no bound by which it could be refused before: lower neighbours.pressure = {}",
+            "the stability of neighbours.pressure cannot be checked in advance: lower neighbours.pressure = {}",
             forces.pressure
         ),
         None => "lower the strengths of the fields".to_owned(),
     };
     let scene = built.scene.file().display();
     Error::refused(format!(
-        "{scene}: frame {frame}: hair flies off beyond all numbers, point {point} among others; {way_out}"
+        "{scene}: frame {frame}: the hair diverges beyond finite numbers, point {point} among others; {way_out}"
     ))
 }
 
@@ -107,20 +107,20 @@ impl Cached {
         let (file, scene) = (cache.display(), built.scene.file().display());
         if let Some(piece) = &reader.header().piece {
             return Err(Error::refused(format!(
-                "{file}: holds shard {} of a motion; put all shards together with nabiki join, and give that file",
+                "{file}: contains shard {} of a motion; join all shards with nabiki join and give the result",
                 piece.shard
             )));
         }
         if reader.header().scene != built.identity()? {
             return Err(Error::refused(format!(
-                "{file}: its motion was not made from {scene} as it is now; give the --strands and --set that it was made \
-                 with, or make it again with nabiki simulate"
+                "{file}: its motion was not made from {scene} as it is now; give the --strands and --set it was made with, \
+                 or run nabiki simulate again"
             )));
         }
         let (last, given) = (u64::from(built.frames()), reader.frame_count());
         if given <= last {
             return Err(Error::refused(format!(
-                "{file}: holds {given} frames and {scene} has {}; draw fewer with --set motion.frames={}",
+                "{file}: has {given} frames, but {scene} has {}; render fewer with --set motion.frames={}",
                 last + 1,
                 given.saturating_sub(1)
             )));

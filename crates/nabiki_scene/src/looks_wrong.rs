@@ -50,8 +50,8 @@ fn advice(built: &BuiltScene) -> Vec<Advice> {
 fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     built.open_bodies().map(|(i, edges)| {
         let seen = format!(
-            "body[{i}] is open along {edges} edges; an opening counts as closed straight across: close it in the file if that is \
-             not meant"
+            "body[{i}] is open along {edges} edges; nabiki treats an opening as closed straight across. If that is wrong, \
+             close it in the file"
         );
         Advice::new(seen)
     })
@@ -72,8 +72,8 @@ pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
     }
     let [x, y, z] = eye.to_array().map(Short);
     let seen = format!(
-        "picture.camera stands in the head, at ({x}, {y}, {z}), and sees next to nothing: give a larger picture.camera.distance, \
-         or another target"
+        "picture.camera is inside the head, at ({x}, {y}, {z}), and sees almost nothing: give a larger \
+         picture.camera.distance or another target"
     );
     Some(Advice::new(seen))
 }
@@ -95,8 +95,8 @@ fn leap(built: &BuiltScene) -> Option<Advice> {
     let (way, turn) =
         (from.position_cm.distance(to.position_cm), from.rotation.angle_between(to.rotation).to_degrees());
     let seen = format!(
-        "the head goes {way:.0} cm and turns {turn:.0} degrees from frame {before} to frame {}, and hair feels that: if the shot cuts \
-         there, make a scene of each part",
+        "the head moves {way:.0} cm and turns {turn:.0} degrees from frame {before} to frame {}, and the hair feels it: if \
+         the shot cuts there, make one scene for each part",
         before + 1
     );
     matches!(built.dynamics.form, Form::Free(_)).then_some(Advice::new(seen))
@@ -112,7 +112,7 @@ fn untied(built: &BuiltScene) -> Option<Advice> {
     }
     let [x, y, z] = tie.at.to_array().map(Short);
     let seen = format!(
-        "free.tie ties nothing: none of these {} strands comes within {} cm of ({x}, {y}, {z}) at rest",
+        "free.tie ties nothing: none of the {} strands comes within {} cm of ({x}, {y}, {z}) at rest",
         strands.len(),
         Short(tie.within)
     );
@@ -131,7 +131,7 @@ fn unbound(built: &BuiltScene) -> Option<Advice> {
     }
     let [x, y, z] = tail.at.to_array().map(Short);
     let seen = format!(
-        "hair.style.ponytail ties nothing: none of these {} strands reaches its band at ({x}, {y}, {z}); give longer hair, or \
+        "hair.style.ponytail ties nothing: none of the {} strands reaches its band at ({x}, {y}, {z}): give longer hair or \
          another hair.style.ponytail.at",
         strands.len()
     );
@@ -146,8 +146,8 @@ fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     let all = move |cut: &Cut| cut.region.is_none() && beyond(cut);
     cuts.iter().enumerate().filter(move |(_, cut)| all(cut)).map(|(i, cut)| {
         let seen = format!(
-            "hair.style.cuts[{i}] cuts all hair to {} cm: every root lies where its normal points; if that is not meant, \
-             turn it, normal = {}",
+            "hair.style.cuts[{i}] cuts all hair to {} cm, because every root is on the side its normal points to: to reverse \
+             it, give normal = {}",
             Short(cut.shortest),
             vector(Vec3::ZERO - cut.normal)
         );
@@ -159,8 +159,8 @@ fn open_skull(head: &Head, hole: &Opening) -> Option<Advice> {
     let missing = hole.missing.filter(|&missing| missing > MISSING * mean_half_axis(&head.ellipsoid))?;
     let [x, y, z] = hole.middle.to_array().map(Short);
     let seen = format!(
-        "the skull has a hole {:.1} cm wide about ({x}, {y}, {z}) cm, which counts as closed straight across, up to \
-         {missing:.1} cm below where its skin would be: close it in the file, or keep more of that with head.groups",
+        "the skull has a hole {:.1} cm wide around ({x}, {y}, {z}) cm. nabiki treats it as closed straight across, up to \
+         {missing:.1} cm below the missing skin: close it in the file, or include more of the file with head.groups",
         2.0 * hole.radius,
     );
     Some(Advice::new(seen))
@@ -174,7 +174,7 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     let astray = seat.astray();
     if !astray.is_empty() {
         let (keys, file) = (astray.join(" and "), seat.settings.file.display());
-        let seen = format!("{keys}: the hair is moved away from the head, which is from {file}, too; leave that out");
+        let seen = format!("{keys}: this moves the hair away from the head, which is also from {file}; leave it out");
         return Some(Advice::new(seen));
     }
     let now = seat.lie();
@@ -183,19 +183,19 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     }
     let seen = wrong(&now);
     if seat.of_head {
-        let seen = format!("{seen}: so it lies in its file, which the head is from, too");
+        let seen = format!("{seen}: that is their place in the file, which the head is also from");
         return Some(Advice::new(seen));
     }
     let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
         // Beside an origin that is given no other facing is sought.
         let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };
-        let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin mends that");
+        let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin fixes that");
         return Some(Advice::new(seen));
     };
     let seen = if then.is_good() {
         seen
     } else {
-        format!("{seen}. It was made for another head; at the best place found {}", wrong(&then))
+        format!("{seen}. It was made for another head; at the best place found, {}", wrong(&then))
     };
     let facing = facing.map(|axis| Fix { key: "hair.facing", value: format!("\"{axis}\"") });
     let unit = unit.map(|value| Fix { key: "hair.unit", value });
@@ -210,6 +210,6 @@ fn wrong(lie: &Lie) -> String {
         let percent = 100.0 * inside;
         format!("{percent:.1} % of the hair's points are inside the head at rest, up to {} cm deep", Short(*depth))
     } else {
-        format!("half of the hair's roots lie more than {} cm from the skin", Short(*off))
+        format!("half of the hair's roots are more than {} cm from the skin", Short(*off))
     }
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// What is asked for is what is certain to be needed, not all of it: what fits is never refused.
 pub(crate) fn short_of(bytes: u64) -> Option<String> {
     let left = available().filter(|&left| bytes > left)?;
-    Some(format!("needs {} of memory at least, and {} are to be had", size(bytes), size(left)))
+    Some(format!("needs at least {} of memory, but only {} are available", size(bytes), size(left)))
 }
 
 /// A number of bytes for a person.
@@ -140,7 +140,8 @@ mod tests {
     fn limits_leave_what_is_not_taken_yet() {
         let limits = |space: &str, data: &str| {
             format!(
-                "Limit  Soft Limit Hard Limit Units\nMax data size  {data}  unlimited bytes\nMax address space {space} 9 bytes\n"
+                "Limit  Soft Limit Hard Limit Units\nMax data size  {data}  unlimited bytes\nMax address space {space} 9 \
+                 bytes\n"
             )
         };
         let status = "VmSize:\t   10 kB\nVmData:\t  4 kB\n";

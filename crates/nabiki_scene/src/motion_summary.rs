@@ -165,7 +165,7 @@ impl fmt::Display for MotionSummary {
         let Self { rest, worst, deepest, most_kinked, farthest_jump, farthest_hop, last, met, blamed, .. } = self;
         write!(
             f,
-            "  inside  {:.2} % of the nodes are inside {met} at frame {} ({:.2} % at rest, at worst {:.2} % at frame {})",
+            "  inside  {:.2} % of the nodes are inside {met} at frame {} ({:.2} % at rest, at most {:.2} % at frame {})",
             100.0 * last.inside,
             last.frame,
             100.0 * rest.inside,
@@ -177,8 +177,8 @@ impl fmt::Display for MotionSummary {
         }
         write!(
             f,
-            "\n  motion  joints of more than 60 degrees: {:.3} % at rest, at most {:.3} % at frame {}\n          a node goes \
-             {:.2} cm in a frame at the most, at frame {}, and {:.4} cm in the last one",
+            "\n  motion  joints of more than 60 degrees: {:.3} % at rest, at most {:.3} % at frame {}\n          a node \
+             moves at most {:.2} cm in a frame, at frame {}, and {:.4} cm in the last frame",
             100.0 * rest.kinks,
             100.0 * most_kinked.kinks,
             most_kinked.frame,
@@ -191,7 +191,8 @@ impl fmt::Display for MotionSummary {
                 let FrameSummary { hop, frame, .. } = farthest_hop;
                 write!(
                     f,
-                    "\n  look    hair hops: a node goes {hop:.1} cm to and fro by frame {frame}, which no hair does: {blamed}"
+                    "\n  warning hair hops: a node moves {hop:.1} cm back and forth by frame {frame}, unlike real hair: \
+                     {blamed}"
                 )
             }
             _ => Ok(()),

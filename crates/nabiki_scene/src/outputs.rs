@@ -45,7 +45,7 @@ impl Stills {
     ) -> Result<Self> {
         folders.make(&folder, WAY_OUT)?;
         let held = HeldFolder::hold(&folder, hold).map_err(|lock| {
-            let line = "this is no ordinary file, as a lock is; remove it, or";
+            let line = "this is not a regular file, as a lock must be; remove it, or";
             Error::refused(format!("{}: {line} {WAY_OUT}", lock.display()))
         })?;
         let Some(held) = held else {
@@ -86,7 +86,7 @@ impl Stills {
         if let Some(first) = others.iter().min() {
             let (files, them) = if others.len() == 1 { ("file", "it is") } else { ("files", "they are") };
             let seen = format!(
-                "{} holds {} {files} of frames after {last} that bear no mark of Nabiki's, {} first: {them} left there",
+                "{} contains {} {files} of frames after {last} that nabiki did not write, {} first: {them} left there",
                 self.folder.display(),
                 others.len(),
                 first.file_name().unwrap_or_default().display()
@@ -152,7 +152,7 @@ impl<'a> PictureOutputs<'a> {
         let at = |ending: &str| folder.join(format!("{name}{ending}"));
         let nothing = !(output.movie || output.png_frames || output.exr_frames || output.field);
         if nothing && output.sheet_frames(last).is_empty() {
-            let line = "nothing is to be written: output.movie, png_frames, exr_frames, field and sheet are all off; give one of them";
+            let line = "nothing to write: output.movie, png_frames, exr_frames, field and sheet are all off; turn on one of them";
             return Err(Error::refused(format!("{}: {line}", built.scene.file().display())));
         }
         folders.make(folder, WAY_OUT)?;

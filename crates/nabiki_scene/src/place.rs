@@ -90,10 +90,7 @@ pub fn cache(path: &Path, way_out: &str, inputs: &[PathBuf]) -> Result<()> {
 pub fn distinct(paths: &[&Path]) -> Result<()> {
     for (i, path) in paths.iter().enumerate() {
         if paths[..i].iter().any(|before| is_one(before, path)) {
-            return Err(Error::refused(format!(
-                "{}: asked for twice; give each file a name of its own",
-                path.display()
-            )));
+            return Err(Error::refused(format!("{}: given twice; give each file its own name", path.display())));
         }
     }
     Ok(())
@@ -105,7 +102,7 @@ pub fn not_inputs(outputs: &[&Path], inputs: &[PathBuf]) -> Result<()> {
         if let Some(input) = inputs.iter().find(|input| input.exists() && is_one(input, output)) {
             let is = if input == output { String::new() } else { format!(", which is {}", input.display()) };
             return Err(Error::refused(format!(
-                "{}: this is read to make the result{is}; give the result another name",
+                "{}: this is an input of the result{is}; give the result another name",
                 output.display()
             )));
         }
@@ -125,7 +122,7 @@ pub fn room(path: &Path, bytes: u64, watch: &mut dyn Watch) -> Result<()> {
         && bytes > left
     {
         return Err(Error::refused(format!(
-            "{}: will take {} at least, and the disk has {} left; choose another folder, or fewer frames or strands",
+            "{}: needs at least {}, but the disk has {} left; choose another folder, or fewer frames or strands",
             path.display(),
             size(bytes),
             size(left)

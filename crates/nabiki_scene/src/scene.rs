@@ -266,11 +266,13 @@ impl Scene {
         let refused = |remedy: &str| Err(SettingError::new(format!("force[{j}].speed"), speed, remedy));
         if self.form == FormChoice::Paper {
             return refused(
-                "hair of the paper's form is carried by no air: set motion.form = \"free\", or give vector the strength",
+                "the paper's form has no air to carry hair: set motion.form = \"free\", or give the strength in vector",
             );
         }
         if self.free.settle.values().iter().all(Amount::is_zero) {
-            return refused("without air, free.settle = 0, no wind carries hair: give settle, or vector the strength");
+            return refused(
+                "with free.settle = 0 there is no air to carry hair: give settle, or give the strength in vector",
+            );
         }
         Ok(())
     }
@@ -343,7 +345,7 @@ impl Scene {
     /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text, a field of a program's own.
     pub fn to_toml(&self) -> Result<String, SceneError> {
         if !self.field.own.is_empty() {
-            let line = "a file cannot hold a field that a program gave: take it out of the scene before it is written";
+            let line = "a file cannot hold a field from a program: remove it from the scene before you save it";
             return Err(self.origins.error("", Problem::Other(line.to_owned())));
         }
         let unwritable = |Unwritable(why): Unwritable| self.origins.error("", Problem::Other(why));

@@ -67,11 +67,9 @@ use Occurs::{Always, IfGiven, ManyTimes};
 /// All tables, in the order in which files have them.
 pub const TABLES: &[SceneTable] = &[
     SceneTable::of("head", Always, &[BuiltinHead::TABLE, ImportedHead::TABLE])
-        .sharing(AnyHead::TABLE, "The head that hair grows on: the built-in bust, or one out of a file."),
-    SceneTable::of("hair", Always, &[GrownHair::TABLE, ImportedHair::TABLE]).sharing(
-        AnyHair::TABLE,
-        "The hair at rest: grown from the scalp, or, where `file` is given, read from a file.",
-    ),
+        .sharing(AnyHead::TABLE, "The head that hair grows on: the built-in bust, or a mesh from a file."),
+    SceneTable::of("hair", Always, &[GrownHair::TABLE, ImportedHair::TABLE])
+        .sharing(AnyHair::TABLE, "The hair at rest. It grows from the scalp, or comes from a file if you give `file`."),
     SceneTable::of("motion", Always, &[Motion::TABLE]).sharing(FormKey::TABLE, Motion::TABLE.help),
     SceneTable::of("free", Always, &[FreeSettings::TABLE]),
     SceneTable::of("contact", Always, &[Contact::TABLE]),

@@ -56,8 +56,8 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
 }
 
 const INTRODUCTION: &str = "\
-# A scene of hair in the wind. Lengths are centimetres, y is up and the face looks along +x, whatever the files have.
-# Every setting may be changed for one try: nabiki preview SCENE --set motion.time_step=0.05
+# A scene of hair in the wind. Lengths are in centimetres, y is up and the face looks along +x, whatever the files use.
+# To change any setting for one run: nabiki preview SCENE --set motion.time_step=0.05
 ";
 
 const STYLE: &str = "\
@@ -84,11 +84,11 @@ fn lines(table: &str, keys: &[&str]) -> String {
 
 /// Hair as it is in life, in true timing at any frame rate: real hair that is styled a little at its root.
 const FREE: &str = "\
-stiffness = [\"6 cm\", \"4.5 cm\"]   # within how far hair bends under its own weight, at the root and at the tip; real hair has 4.5 cm
-hold = \"0.3 g\"              # hair spray: brings hair back to its place, by a part of its weight
-settle = \"0.6 s\"            # how long until a swing has fallen to a third
-gravity = \"1 g\"             # as on the earth
-drag = 1.0                  # how far a head that moves leaves hair behind: 1 is as in life
+stiffness = [\"6 cm\", \"4.5 cm\"]   # the length over which hair bends under its own weight, at root and tip; real hair has 4.5 cm
+hold = \"0.3 g\"              # hair spray: returns hair to its place, as a share of its weight
+settle = \"0.6 s\"            # the time in which a swing falls to about a third
+gravity = \"1 g\"             # as on earth
+drag = 1.0                  # how far a moving head leaves the hair behind: 1 is realistic
 ";
 
 /// Motion, wind and camera of a new scene.
@@ -104,24 +104,24 @@ fn rest(Shot { frames, rate }: Shot) -> String {
     format!(
         "
 [motion]
-form = \"free\"              # \"paper\": the equations of 1993, in which hair neither stops at the head nor calms down
+form = \"free\"              # \"paper\": the equations of 1993, without contact and damping
 frames = {frames}
 frame_rate = {rate}
-inertia_length_floor = 14.0   # shorter hair is held by the longer hair beside it (cm)
+inertia_length_floor = 14.0   # shorter hair swings like hair of this length (cm)
 
-# What holds hair in shape and calms it. All but the weight may be lists from root to tip; plain numbers are in the unit of the force.
+# How hair keeps its shape and settles. All but gravity may be lists from root to tip; plain numbers are in F, the unit of the wind.
 [free]
 {FREE}
-# How locks differ, so that they part in the wind; without this table hair moves as one sheet.
+# How locks differ, so that they part in the wind. Without this table the hair moves as one sheet.
 [free.variation]
 {variation}
-# Hair stays out of the head, and of every [[body]] with a mesh and a motion, or one that goes with_head.
+# Hair keeps out of the head, and of each [[body]] with a mesh and a motion or with_head = true.
 [contact]
 {contact}
-# Hair against hair, felt where the table is there:
+# Hair against hair. Remove the # to turn it on:
 # [neighbours]
 {neighbours}
-# Where the hair shall go: a direction with the speed of the wind, up to a frame. Without a speed the vector's length is its strength.
+# The wind: direction and speed, up to a frame. Without speed, the length of the vector is the strength.
 [[force]]
 through = {calm}
 vector = [0, 0, 0]
@@ -134,12 +134,12 @@ speed = \"25 km/h\"
 [[force]]
 through = {last}
 vector = [-1, 0, 0]
-speed = \"2 km/h\"           # a breeze, in which hair comes back by itself
+speed = \"2 km/h\"           # a breeze, in which the hair returns
 
 [wind]
-ease = \"smooth\"            # how the wind goes from one to the next
+ease = \"smooth\"            # how the wind changes from one to the next
 
-# The camera frames all that moves; distance (cm) and target fix it.
+# The camera frames everything that moves; distance (cm) and target override that.
 [picture]
 camera = {{ azimuth = 50.0, elevation = 4.0 }}
 "
@@ -170,7 +170,7 @@ impl Looked {
         }
         if self.declared.unit.is_none() {
             text += &format!(
-                "unit = {:<20} # of the file, guessed: mm, cm, dm, m, in, ft or centimetres\n",
+                "unit = {:<20} # of the file, guessed: mm, cm, dm, m, in, ft or a number of cm\n",
                 self.unit_text
             );
         }
@@ -185,7 +185,7 @@ impl Looked {
                 let origin = self.placement.file_from_head().transform_point3(center);
                 let origin = seat::rounded(origin, size / self.placement.unit.cm);
                 text += &format!("origin = {}\n", vector(origin));
-                text += "# No skull was found to fit it to: it is drawn about what there is.\n";
+                text += "# No skull was found to fit the ellipsoid to, so it encloses the mesh or the roots.\n";
                 text += &format!(
                     "ellipsoid = {{ center = [0.0, 0.0, 0.0], half_axes = {} }}\n",
                     vector(seat::rounded(half_axes, size))
@@ -231,7 +231,7 @@ fn look_at_head(file: &Path, groups: &[String], strands: Option<&Strands>) -> Re
     let head = Head::from_mesh(in_head, Some(centred)).map_err(|e| Error::from(e).in_file(file))?;
     if boxed {
         let what = if roots.is_some() { "the roots" } else { "the whole mesh" };
-        guesses.push(format!("head.ellipsoid, about {what}: no skull was found"));
+        guesses.push(format!("head.ellipsoid, around {what}: no skull was found"));
     }
     Ok(Looked { head, placement, declared, groups, unit_text, boxed: boxed.then_some(centred), guesses })
 }
@@ -263,7 +263,7 @@ fn chosen(file: &Path, groups: &[String], declared: &DeclaredSpace, guesses: &mu
         let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).take(MOST_TRIED).collect();
         let (count, names) = (parts.len(), names.join(", "));
         guesses.push(format!(
-            "head.mesh, all {count} meshes of the file, the largest {names}: head.groups keeps some of them"
+            "head.mesh, all {count} meshes of the file, the largest {names}: head.groups selects some of them"
         ));
     }
     if found.skull.is_none() {
@@ -300,7 +300,7 @@ fn unit_of(mesh: &Mesh, ellipsoid: &Ellipsoid, boxed: bool, up: Axis) -> Result<
     const UNITS: std::ops::RangeInclusive<f32> = 1e-4..=1e5;
     let size = mean_half_axis(ellipsoid);
     if !UNITS.contains(&(HALF_AXIS / size)) {
-        let line = "of its units is its mean half axis, and no unit of length makes that a person's";
+        let line = "is its mean half axis in its own units, and no unit of length makes that a person's";
         return Err(Error::new(format!("{size:e} {line}: scale it in the file, to metres or centimetres")));
     }
     Ok(if !boxed {
@@ -309,7 +309,7 @@ fn unit_of(mesh: &Mesh, ellipsoid: &Ellipsoid, boxed: bool, up: Axis) -> Result<
             None => {
                 let cm = decimal(HALF_AXIS / size, 2);
                 let guess = format!(
-                    "head.unit = {cm} (cm): in no unit that has a name is it of a person's size; give the file's own"
+                    "head.unit = {cm} (cm): no named unit gives it the size of a person; give the unit of the file"
                 );
                 (cm, guess)
             }
@@ -326,7 +326,8 @@ fn by_height(mesh: &Mesh, up: Axis) -> (String, String) {
     match info::likely_unit(height) {
         Some(name) => (format!("\"{name}\""), format!("head.unit = \"{name}\", by how tall the mesh is")),
         None => {
-            let guess = "head.unit = \"cm\": in no unit is it as tall as a person's head or body; give the file's own";
+            let guess =
+                "head.unit = \"cm\": no unit gives it the height of a person's head or body; give the unit of the file";
             ("\"cm\"".to_owned(), guess.to_owned())
         }
     }
@@ -473,13 +474,13 @@ fn imported_hair(
         guesses.push(format!("hair.unit = {unit}, by how the roots spread and lie on the head"));
     }
     if let Some(origin) = origin.map(vector) {
-        text += &format!("origin = {origin}   # guessed: the point of the file that is the middle of the head\n");
-        let there = if on_skin { "onto the scalp" } else { "as near to the skin as any" };
+        text += &format!("origin = {origin}   # guessed: the point of the file at the middle of the head\n");
+        let there = if on_skin { "onto the scalp" } else { "as close to the skin as possible" };
         guesses.push(format!("hair.origin = {origin}, which brings the roots {there}"));
     }
-    text += "# strands = 5000           # an even choice of the file's\n";
-    text += "# segments = 20            # cuts every strand anew into equal segments\n";
-    text += "segment_length = 1.0       # the paper's d (cm), which its k and i are counted in\n";
+    text += "# strands = 5000           # use only this many, spread evenly\n";
+    text += "# segments = 20            # resample each strand to equal segments\n";
+    text += "segment_length = 1.0       # the paper's d (cm), in which k and i are counted\n";
     Ok(text)
 }
 
@@ -489,6 +490,6 @@ fn quoted(scene: &Path, file: &Path) -> Result<String> {
     let absolute = |path: &Path| std::path::absolute(path).map_err(|e| Error::from(e).in_file(path));
     let (folder, file) = (absolute(folder)?, absolute(file)?);
     let named = file.strip_prefix(&folder).unwrap_or(&file);
-    let text = named.to_str().ok_or_else(|| Error::new("a scene is text, and this name is not").in_file(&file))?;
+    let text = named.to_str().ok_or_else(|| Error::new("a scene is text, but this name is not").in_file(&file))?;
     Ok(toml::Value::String(text.to_owned()).to_string())
 }

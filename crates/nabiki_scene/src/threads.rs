@@ -25,7 +25,7 @@ pub fn made<T>(
     build: impl FnOnce(ThreadPoolBuilder) -> Result<T, rayon::ThreadPoolBuildError>,
 ) -> Result<T> {
     if let Some(count) = in_environment().filter(|&count| asked.is_none() && count > u64::from(MOST)) {
-        let line = format!("{VARIABLE}={count}: {MOST} threads are the most: set it lower, or leave it out");
+        let line = format!("{VARIABLE}={count}: at most {MOST} threads: set it lower, or leave it out");
         return Err(Error::refused(line));
     }
     let builder = ThreadPoolBuilder::new();
@@ -39,11 +39,13 @@ pub fn made<T>(
             (None, Some(count)) => format!("{VARIABLE}={count}"),
             (None, None) => "a thread for each core".to_owned(),
         };
-        Error::refused(format!("{wanted}: the system does not give so many ({e}); {fewer}"))
+        Error::refused(format!("{wanted}: the system cannot start that many ({e}); {fewer}"))
     })
 }
 
 /// What is said where the system gives no thread at all.
 pub fn none_given(error: &std::io::Error) -> String {
-    format!("the system gives no thread ({error}): end other programs, or let this user have more of them")
+    format!(
+        "the system cannot start a thread ({error}): end other programs, or raise the limit of threads for this user"
+    )
 }

@@ -93,16 +93,16 @@ impl Told {
                 format!("  reading {}", names.join(", "))
             }
             Self::Scene(_) | Self::Swing(_) | Self::Motion(_) | Self::Solved(_) => String::new(),
-            Self::Advice(advice) => format!("  look    {advice}"),
+            Self::Advice(advice) => format!("  warning {advice}"),
             Self::Guessed(what) => format!("  guessed {what}"),
-            Self::Unread { file, what } => format!("  unread  of {}: {what}", file.display()),
+            Self::Unread { file, what } => format!("  ignored in {}: {what}", file.display()),
             Self::Lost { file, what } => format!("  lost    {} cannot hold {what}", file.display()),
             Self::Large { file, bytes } => {
-                format!("  large   {} will take {} at least", file.display(), size(*bytes))
+                format!("  large   {} needs at least {}", file.display(), size(*bytes))
             }
             Self::Removed { folder, frames, last } => {
                 format!(
-                    "  removed {frames} files of frames after {last} from {}, left by a longer run",
+                    "  removed {frames} files of frames after {last} from {}, left over from a longer run",
                     folder.display()
                 )
             }
@@ -187,27 +187,27 @@ impl fmt::Display for SceneSummary {
         let [x, y, z] = self.half_axes;
         writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", OneLine(&self.head))?;
         if self.doubled_triangles > 0 {
-            writeln!(f, "          {} triangles of second sides were left out", self.doubled_triangles)?;
+            writeln!(f, "          left out {} triangles of second sides", self.doubled_triangles)?;
         }
         if self.turned_triangles > 0 {
-            writeln!(f, "          {} triangles that faced inward were turned", self.turned_triangles)?;
+            writeln!(f, "          turned {} triangles that faced inward", self.turned_triangles)?;
         }
         if self.open_edges > 0 {
             let place = if self.skull_is_open { "some of them in the skull" } else { "none of them in the skull" };
             writeln!(
                 f,
-                "          it is open along {} edges, {place}; an opening counts as closed straight across",
+                "          open along {} edges, {place}; nabiki treats openings as closed straight across",
                 self.open_edges
             )?;
         }
         for unread in &self.unread {
-            writeln!(f, "          not read of its file: {}", OneLine(unread))?;
+            writeln!(f, "          ignored in its file: {}", OneLine(unread))?;
         }
         if let Some(motion) = &self.motion {
             writeln!(f, "          {}", OneLine(motion))?;
         }
         for (i, unread) in &self.unread_of_bodies {
-            writeln!(f, "  body[{i}] not read of its file: {}", OneLine(unread))?;
+            writeln!(f, "  body[{i}] ignored in its file: {}", OneLine(unread))?;
         }
         write!(f, "  hair    {} strands", self.strands)?;
         if self.strands < self.strands_of_scene {
@@ -222,14 +222,14 @@ impl fmt::Display for SceneSummary {
             let dropped = import.degenerate.dropped_strands + import.dropped_short;
             write!(
                 f,
-                "\n          of {} strands in the file; {joined} doubled points joined, {dropped} strands dropped as too \
-                 short",
+                "\n          of {} strands in the file; joined {joined} duplicate points, dropped {dropped} strands that are \
+                 too short",
                 import.strands_in_file
             )?;
             if self.frames_in_file > 1 {
                 write!(
                     f,
-                    "\n          taken from the first of the file's {} frames; its own motion is left out",
+                    "\n          uses the first of the file's {} frames and ignores its motion",
                     self.frames_in_file
                 )?;
             }
@@ -246,7 +246,7 @@ impl fmt::Display for SceneSummary {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SwingTable {
-    /// Length of the strand, the median of the hair's (cm); of what is tied, behind its tie.
+    /// Length of the strand, the median of the hair's (cm); of what is tied, beyond its tie.
     pub length: f32,
     /// Whether that is so of half of the hair or more.
     pub tied: bool,
@@ -374,7 +374,7 @@ impl SwingTable {
 
 impl fmt::Display for SwingTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (root, tied) = if self.tied { ("tie", " behind its tie") } else { ("root", "") };
+        let (root, tied) = if self.tied { ("tie", " beyond its tie") } else { ("root", "") };
         let length = self.length;
         write!(f, "  swing   frames of one swing of a strand of {length:.1} cm{tied}")?;
         match self.steps {

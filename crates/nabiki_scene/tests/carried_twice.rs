@@ -48,7 +48,7 @@ fn advised(folder: &Path, turned: f32, origin: &str) -> Vec<String> {
     std::fs::write(&file, scene).unwrap();
     let built = Scene::load(&file, &[]).unwrap().build(Shown::All).unwrap();
     let advice = built.advice().into_iter().map(|advice| advice.to_string());
-    advice.filter(|line| line.contains("carries it again")).collect()
+    advice.filter(|line| line.contains("moves it there a second time")).collect()
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn a_mesh_that_its_motion_would_carry_twice_is_said_with_the_way_out() {
     let folder = tempfile::tempdir().unwrap();
     let said = |table: &str| {
         format!(
-            "{table}.mesh stands in tail.usda where tail has it in the first frame, from which {table}.motion carries it again"
+            "{table}.mesh is already placed in tail.usda as tail is in the first frame, and {table}.motion moves it there a second time"
         )
     };
     let give = |table: &str| format!("{}: give {table}.motion.bind_at_start = true", said(table));
@@ -70,7 +70,7 @@ fn a_mesh_that_its_motion_would_carry_twice_is_said_with_the_way_out() {
         .replace("facing = \"-y\" }", "facing = \"-y\", bind_at_start = true }");
     let followed = Scene::parse(&text, &scene, &[]).unwrap().build(Shown::All).unwrap().advice();
     assert!(
-        !followed.iter().any(|advice| advice.to_string().contains("carries it again")),
+        !followed.iter().any(|advice| advice.to_string().contains("moves it there a second time")),
         "what was advised, followed"
     );
 }
@@ -91,10 +91,10 @@ fn a_motion_of_the_mesh_s_own_file_faces_as_the_mesh_does_and_another_facing_is_
     let other = built("facing = \"+x\", bind_at_start = true }");
     let said = |built: &BuiltScene| -> Vec<String> {
         let lines = built.advice().into_iter().map(|advice| advice.to_string());
-        lines.filter(|line| line.contains("goes and turns another way")).collect()
+        lines.filter(|line| line.contains("moves and turns in other directions")).collect()
     };
     assert_eq!((said(&same).len(), said(&none).len(), said(&other).len()), (0, 0, 2));
-    let line = "head.motion.facing = \"+x\" and head.facing = \"-y\", both of tail.usda";
+    let line = "head.motion.facing = \"+x\" and head.facing = \"-y\", both for tail.usda";
     assert!(said(&other)[0].starts_with(line), "{:?}", said(&other));
 }
 
@@ -109,12 +109,12 @@ fn a_scale_that_changes_and_a_shear_are_said_to_be_left_out() {
         (
             "double3 xformOp:scale.timeSamples = { 0: (1, 1, 1), 9: (1, 1, 1.1) }",
             "\"xformOp:rotateZ\", \"xformOp:scale\"",
-            Some("not obeyed: its scale, which changes"),
+            Some("ignored: its scale, which changes"),
         ),
         (
             "double3 xformOp:scale = (1, 1.1, 1)",
             "\"xformOp:scale\", \"xformOp:rotateZ\"",
-            Some("not obeyed: its shear: scaled unevenly above a turn"),
+            Some("ignored: its shear: scaled unevenly above a turn"),
         ),
     ] {
         let scaled = layer.replace("uniform token[]", &format!("{operation}\n uniform token[]"));

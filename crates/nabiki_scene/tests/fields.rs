@@ -121,11 +121,11 @@ fn fields_without_anything_to_act_on_are_refused() {
     );
     assert_eq!(
         refused(&format!("{bare}[flow]\n")),
-        "fields.toml:2: flow = without wind: it leads [[force]] and [body_wind] round the head: give one, or remove [flow]"
+        "fields.toml:2: flow = without wind: it leads [[force]] and [body_wind] around the head: give one, or remove [flow]"
     );
     assert_eq!(
         refused(&format!("{bare}[body_wind]\n")),
-        "fields.toml:2: body_wind = without motion: it comes from the head's way: give head.motion, or remove [body_wind]"
+        "fields.toml:2: body_wind = without motion: it needs a moving head: give head.motion, or remove [body_wind]"
     );
 }
 
@@ -231,7 +231,7 @@ fn hair_that_flies_off_is_one_line_with_what_may_be_lowered() {
         summary.to_string()
     };
     let said = flung("1e36");
-    assert!(said.contains("look    hair hops: ") && said.contains("lower neighbours.pressure = 1"), "{said}");
+    assert!(said.contains("warning hair hops: ") && said.contains("lower neighbours.pressure = 1"), "{said}");
     let said = flung("3e38");
     assert!(said.starts_with("fields.toml: frame ") && said.contains("lower neighbours.pressure = 3"), "{said}");
 }
@@ -385,7 +385,7 @@ fn a_field_of_a_programs_own_is_added_and_cannot_be_written() {
     }
     assert!(with.forces.field.strongest() >= without.forces.field.strongest() + 2.0 * vector.length());
     let written = scene.to_toml().unwrap_err().to_string();
-    assert!(written.contains("cannot hold a field that a program gave"), "{written}");
+    assert!(written.contains("cannot hold a field from a program"), "{written}");
     let marked = with.identity().unwrap_err().to_string();
     assert!(marked.contains("export to .usd"), "{marked}");
     assert!(without.identity().is_ok());

@@ -192,8 +192,7 @@ fn bodies_that_are_none_are_refused() {
     );
     assert_eq!(
         refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nwith_head = true\nmotion = { file = \"short.csv\" }"),
-        "free.toml:13: body[0].with_head = true: a body that goes with the head has no motion of its own: remove one of the \
-         two"
+        "free.toml:13: body[0].with_head = true: a body that moves with the head cannot have its own motion: remove one of the two"
     );
     assert_eq!(
         refused(
@@ -212,8 +211,7 @@ fn bodies_that_are_none_are_refused() {
     );
     assert_eq!(
         refused("solid.obj", "sheet.obj"),
-        "free.toml:12: body[0].mesh = 9 x 9 x 0 cm: a sheet encloses no space, or next to none, so nothing can be told to be \
-         inside it: make it thicker"
+        "free.toml:12: body[0].mesh = 9 x 9 x 0 cm: a sheet encloses no space, or next to none, so it has no inside: make it thicker"
     );
     assert_eq!(
         refused("solid.obj", "no/hand.obj"),
@@ -335,7 +333,7 @@ fn what_comes_after_the_last_frame_is_said_unless_fewer_frames_are_tried() {
         let built = Scene::parse(&text, Path::new("s.toml"), overrides).unwrap().build(Shown::First(2)).unwrap();
         built.advice().iter().map(ToString::to_string).collect()
     };
-    let after = "felt first in frame 6, and the last is motion.frames = 5";
+    let after = "it is first felt in frame 6, but the last frame is motion.frames = 5";
     assert_eq!(said(9, "", &[]), [format!("force[1] changes nothing: {after}")]);
     let third = "[[force]]\nthrough = 12\nvector = [0, 0, 0]\n";
     assert_eq!(said(9, third, &[]), [format!("force[1] and what comes after it change nothing: {after}")]);

@@ -21,7 +21,7 @@ fn a_scene_of_the_free_form_tells_what_moves_its_hair() {
     let said = free.to_string();
     for line in [
         "motion: free form, time step 0.13, density 0.05 per cm",
-        "free: stiffness 12000 to 1000, hold 30, settle 16 frames, weight 100, drag 1, 2 steps a frame",
+        "free: stiffness 12000 to 1000, hold 30, settle 16 frames, weight 100, drag 1, 2 steps per frame",
         "contact: margin 0.1 cm",
         "neighbours: cohesion 40, pressure 40",
         "body[0]: motion/hand.obj, moved by motion/sweep.csv, margin 0.2 cm",
@@ -54,7 +54,7 @@ fn files_that_are_missing_are_said_to_be_and_bodies_are_not_felt_in_the_papers_f
     std::fs::write(folder.path().join("ball.obj"), "").unwrap();
     let said = info(&scene).unwrap().to_string();
     for line in
-        ["hair: nope.abc (missing)", "body[0]: ball.obj, moved by way.csv (missing), not felt in the paper's form"]
+        ["hair: nope.abc (missing)", "body[0]: ball.obj, moved by way.csv (missing), no effect in the paper's form"]
     {
         assert!(said.lines().any(|said| said == line), "{line}: {said}");
     }
@@ -66,7 +66,7 @@ fn what_changes_nothing_is_told() {
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, "[contact]\nmargin = 0.3\n\n[[force]]\nthrough = 9\nvector = [-9, 0, 0]\n").unwrap();
     let said = info(&path).unwrap().to_string();
-    let line = "look: hair does not feel [contact] in the paper's form: give motion.form = \"free\"";
+    let line = "warning: hair does not feel [contact] in the paper's form: give motion.form = \"free\"";
     assert!(said.lines().any(|said| said == line), "{said}");
 }
 

@@ -98,6 +98,6 @@ fn hair_has_what_the_scene_says_of_its_head_s_file_and_another_place_is_said() {
     // What is wrong with the head is said first, so as a person's head has it.
     let cm = scene("unit = 1.06\norigin = [0, 1, 0]").replace("\"in\"", "\"cm\"").replace("\"+z\"", "\"+x\"");
     let said: Vec<String> = built(&cm, folder.path()).advice().iter().map(ToString::to_string).collect();
-    let line = "hair.unit and hair.origin: the hair is moved away from the head, which is from ./both.usdc, too; leave that out";
+    let line = "hair.unit and hair.origin: this moves the hair away from the head, which is also from ./both.usdc; leave it out";
     assert!(said.iter().any(|said| said == line), "{said:?}");
 }

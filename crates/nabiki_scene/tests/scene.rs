@@ -98,7 +98,7 @@ fn an_entry_of_a_list_that_the_file_does_not_give_is_that_of_the_default() {
 fn a_value_meant_as_toml_and_none_of_it_is_refused() {
     for value in [".1", "1.", "-.5", "[160,120", "{ a = 1", "\"open"] {
         let line = parse(GUST, &[("motion.time_step", value)]).unwrap_err().to_string();
-        assert!(line.contains(&format!("{value} is no value of TOML: write 0.5 and not .5")), "{line}");
+        assert!(line.contains(&format!("{value} is not a TOML value: write 0.5, not .5")), "{line}");
     }
     assert!(parse(GUST, &[("force[1.through", "4")]).unwrap_err().to_string().contains("write a key as"));
     let scene = parse(GUST, &[("hair.file", "1993.05/hair.tfx")]).unwrap();
@@ -148,7 +148,10 @@ fn fewer_strands_than_the_scene_has_are_the_first_of_them() {
 fn where_no_hair_can_grow_the_ellipsoid_that_is_given_is_named() {
     let small = [("head.ellipsoid", "{ center = [0, 0, 0], half_axes = [1, 1, 1] }")];
     let refused = parse(GUST, &small).unwrap().build(Shown::First(2)).unwrap_err().to_string();
-    assert!(refused.contains("hair.hairline = no scalp: ") && refused.contains("or mend head.ellipsoid"), "{refused}");
+    assert!(
+        refused.contains("hair.hairline = no scalp: ") && refused.contains("or correct head.ellipsoid"),
+        "{refused}"
+    );
 }
 
 #[test]
@@ -215,8 +218,7 @@ fn wrong_types_say_what_was_found_and_what_must_be() {
     );
     assert_eq!(
         parse("[force]\nthrough = 50\n", &[]).unwrap_err().to_string(),
-        "scenes/gust.toml:1: force: found a table, must be a list, even of one, in brackets; in a file each of a list of tables \
-         begins with two, [[force]]"
+        "scenes/gust.toml:1: force: found a table, must be a list in brackets, even of one; in a file, each table of a list begins with two, [[force]]"
     );
     let table = refused("[-100, 0, 0]", "{ x = 1, y = 0, z = 0 }");
     assert_eq!(table, "scenes/gust.toml:11: force[0].vector: found a table, must be three numbers, [x, y, z]");
@@ -343,11 +345,10 @@ fn a_wrong_override_is_named_instead_of_a_line() {
     );
     assert_eq!(
         refused_override("force.0.vector", "[1,2"),
-        "scenes/gust.toml: --set force.0.vector=[1,2: [1,2 is no value of TOML: write 0.5 and not .5, close each bracket and \
-         quote"
+        "scenes/gust.toml: --set force.0.vector=[1,2: [1,2 is not a TOML value: write 0.5, not .5, and close each bracket and quote"
     );
     let large = refused_override("hair.seed", "9223372036854775808");
-    assert!(large.contains("9223372036854775808 is beyond the whole numbers of TOML"), "{large}");
+    assert!(large.contains("9223372036854775808 is outside the whole numbers of TOML"), "{large}");
 }
 
 #[test]
@@ -478,7 +479,7 @@ fn what_is_tied_swings_as_hair_of_the_length_behind_its_tie() {
         .map(|strand| strand[tie.held(strand)..].windows(2).map(|w| w[0].distance(w[1])).sum())
         .collect();
     behind.sort_by(f32::total_cmp);
-    let line = format!("cm behind its tie; a frame is {} steps", free.form.steps());
+    let line = format!("cm beyond its tie; a frame is {} steps", free.form.steps());
     assert!(table.tied && table.to_string().contains(&line), "{table}");
     assert_eq!(table.length, behind[behind.len() / 2]);
 }

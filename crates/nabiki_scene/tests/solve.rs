@@ -212,7 +212,8 @@ fn a_wind_that_no_wish_feels_stays_as_it_is_and_that_is_said() {
     let solved = place.solved(&mut ear).unwrap();
     assert_eq!(solved.unknowns, [Unknown::Vector(0)]);
     assert_eq!(solved.report.answer.keyframes[1].vector, Vec3::ZERO);
-    let said = "unknowns.vectors[0] = 1 stays as it is: first felt in frame 31, after the last that a wish or nail is about, 30";
+    let said =
+        "unknowns.vectors[0] = 1 does not change: first felt in frame 31, after the last frame of a wish or nail, 30";
     assert_eq!(ear.advice, [said]);
 }
 
@@ -298,8 +299,8 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
     let wish = |from: &str, to: &str| refusal(SCENE, &WISHES.replace(from, to));
     let cases = [
         (wish("[3, 7, 11]", "[3, 700]"), "wish.toml:6: wish[0].strands[1] = 700: the scene's strands are 0 to 59"),
-        (wish("frame = 30", "frame = 61"), "wish.toml:5: wish[0].frame = 61: the scene has frames 1 to 60"),
-        (wish("frame = 30", "frame = 0"), "wish.toml:5: wish[0].frame = 0: the scene has frames 1 to 60"),
+        (wish("frame = 30", "frame = 61"), "wish.toml:5: wish[0].frame = 61: hair moves in frames 1 to 60"),
+        (wish("frame = 30", "frame = 0"), "wish.toml:5: wish[0].frame = 0: hair moves in frames 1 to 60"),
         (wish("along = [0.5, 1]", "weight = -1"), "wish.toml:7: wish[0].weight = -1: must be a finite number above 0"),
         (wish("along = [0.5, 1]", "weight = nan"), "wish.toml:7: wish[0].weight = NaN: must be"),
         (wish("along = [0.5, 1]", "along = [1, 0.5]"), "wish.toml:7: wish[0].along = [1, 0.5]: must be two parts"),
@@ -311,12 +312,11 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         (wish("vectors = [0]", "vectors = [0, 0]"), "wish.toml:2: unknowns.vectors[1] = 0: is named twice"),
         (
             wish("vectors = [0]", "borders = [1]"),
-            "wish.toml:2: unknowns.borders[0] = 1: the last interval holds for good",
+            "wish.toml:2: unknowns.borders[0] = 1: the last interval has no border after it",
         ),
         (
             wish("vectors = [0]", "vectors = [1]"),
-            "wish.toml:2: unknowns.vectors[0] = 1: first felt in frame 31, after the last that a wish or nail is about, 30: free \
-             what blows before it, or wish for a later frame",
+            "wish.toml:2: unknowns.vectors[0] = 1: first felt in frame 31, after the last frame of a wish or nail, 30: let an earlier wind change, or wish for a later frame",
         ),
         (
             wish("vectors = [0]", "interval = { from = 40, through = 50 }"),
@@ -328,7 +328,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
                 &SCENE.replace("[motion]", "[free]\nsettle = 0\n\n[motion]"),
                 &WISHES.replace("vectors = [0]", "settle = true"),
             ),
-            "wish.toml:2: unknowns.settle = true: it is 0 everywhere, and is found",
+            "wish.toml:2: unknowns.settle = true: it is 0 everywhere, and the solver only scales it",
         ),
         (
             wish("vectors = [0]", "vektors = [0]"),
@@ -342,9 +342,9 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
             wish("vectors = [0]", "interval = { from = 40, through = 99 }"),
             "wish.toml:2: unknowns.interval.through = 99: the",
         ),
-        (refusal(SCENE, "[unknowns]\nvectors = [0]\n"), "wish.toml: wish = none: there is nothing to solve for"),
-        (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] = no lock: say which hair is meant"),
-        (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] = a wish to no place: say where to by one of"),
+        (refusal(SCENE, "[unknowns]\nvectors = [0]\n"), "wish.toml: wish = none: nothing to solve for"),
+        (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] = no lock: name the hair"),
+        (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] = a wish to no place: give the goal as one of"),
         (
             wish("mean_moved", "mean_at = [0, 0, 0]\nmean_moved"),
             "wish.toml:8: wish[0].mean_at = beside mean_moved: say",
@@ -359,7 +359,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             wish("strands = [3, 7, 11]", "near = { point = [90, 0, 0], radius = 2 }"),
-            "wish.toml:6: wish[0].near.radius = 2: no hair is so near to (",
+            "wish.toml:6: wish[0].near.radius = 2: no hair is that close to (",
         ),
         (
             wish("strands = [3, 7, 11]", "near = [-9, -12, 0]"),
@@ -367,7 +367,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             refusal(&SCENE.replace("form = \"free\"", ""), &WISHES.replace("vectors = [0]", "settle = true")),
-            "wish.toml:2: unknowns.settle = true: hair of the paper's form has none",
+            "wish.toml:2: unknowns.settle = true: the paper's form has none",
         ),
     ];
     for (said, expected) in cases {

@@ -125,8 +125,7 @@ fn strands_are_counted_among_those_that_a_scene_keeps() {
     for (hair, kept) in [("strands = 12", 12), ("drop_shorter_than = 5", STRANDS)] {
         assert_eq!(refused(hair, kept - 1), None);
         let said = format!(
-            "wish.toml:3: wish[0].strands[0] = {kept}: the scene's strands are 0 to {}, those of its file's {all} that it keeps: \
-             count these alone",
+            "wish.toml:3: wish[0].strands[0] = {kept}: the scene's strands are 0 to {}, the ones it keeps of {all} in its file: count only these",
             kept - 1
         );
         assert_eq!(refused(hair, kept), Some(said));

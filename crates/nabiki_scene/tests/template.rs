@@ -282,8 +282,8 @@ fn a_mesh_of_no_size_of_a_person_s_is_guessed_by_its_height_or_asked_for() {
     assert!(guess(&head).contains("head.unit = \"m\", by how tall the mesh is"), "{}", guess(&head));
     // A tenth of a unit: no unit up to the metre makes that a head or a body.
     std::fs::write(&head, "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n").unwrap();
-    assert!(guess(&head).contains("head.unit = \"cm\": in no unit is it as tall"), "{}", guess(&head));
-    assert!(guess(&head).contains("give the file's own"), "{}", guess(&head));
+    assert!(guess(&head).contains("head.unit = \"cm\": no unit gives it the height"), "{}", guess(&head));
+    assert!(guess(&head).contains("give the unit of the file"), "{}", guess(&head));
     for scale in ["1e-9", "1e20"] {
         let unit = Unit { cm: scale.parse::<f32>().unwrap().recip() };
         std::fs::write(&head, mesh_text(&bust().model.head, &Placement { unit, ..Placement::default() })).unwrap();
@@ -385,13 +385,13 @@ fn more_strands_than_a_file_has_are_refused() {
     assert_eq!(load(count, Shown::All).unwrap().strands().len(), count);
     let refused = load(count + 1, Shown::All).unwrap_err().to_string();
     let end = format!(
-        "hair.strands = {}: hair.obj has {count} strands: ask for fewer, or for all by leaving it out",
+        "hair.strands = {}: hair.obj has {count} strands: request fewer, or leave it out to use all",
         count + 1
     );
     assert!(refused.ends_with(&end), "{refused}");
     // There is nothing to grow more of.
     let shown = load(count, Shown::First(count + 1)).unwrap_err().to_string();
-    assert!(shown.ends_with("ask for fewer"), "{shown}");
+    assert!(shown.ends_with("request fewer"), "{shown}");
 }
 
 #[test]

@@ -140,12 +140,11 @@ fn what_is_no_quantity_and_what_has_no_meaning_is_refused_where_it_stands() {
     );
     assert_eq!(
         refused(&text("", "", &format!("{speed}\"5 m/s\"")).replace("\"free\"", "\"paper\"")),
-        "a.toml:12: force[0].speed = 5 m/s: hair of the paper's form is carried by no air: set motion.form = \"free\", or give \
-         vector the strength"
+        "a.toml:12: force[0].speed = 5 m/s: the paper's form has no air to carry hair: set motion.form = \"free\", or give the strength in vector"
     );
     assert_eq!(
         refused(&text("", "settle = \"0 s\"", &format!("{speed}\"5 m/s\""))),
-        "a.toml:12: force[0].speed = 5 m/s: without air, free.settle = 0, no wind carries hair: give settle, or vector the strength"
+        "a.toml:12: force[0].speed = 5 m/s: with free.settle = 0 there is no air to carry hair: give settle, or give the strength in vector"
     );
     let free = |line: &str| refused(&text("", line, CALM));
     assert_eq!(
@@ -159,7 +158,7 @@ fn what_is_no_quantity_and_what_has_no_meaning_is_refused_where_it_stands() {
     assert_eq!(free("stiffness = \"-9 cm\""), "a.toml:8: free.stiffness = -9 cm: must not be below 0");
     assert_eq!(
         free("stiffness = [900, \"4.5 cm\"]\ngravity = 0"),
-        "a.toml:8: free.stiffness = 4.5 cm: hair without gravity bends within no length: give gravity, or a number"
+        "a.toml:8: free.stiffness = 4.5 cm: a bending length needs gravity: give gravity, or a number"
     );
     assert_eq!(
         free("stiffness = true"),

@@ -66,7 +66,7 @@ impl Layer {
             ));
         }
         if !first.starts_with(b"#usda") && !first.starts_with(b"#sdf") {
-            return Err(Problem::new("is no USD layer: it begins neither with #usda nor with PXR-USDC"));
+            return Err(Problem::new("is not a USD layer: it begins neither with #usda nor with PXR-USDC"));
         }
         let (prims, metadata) = text::parse(&mut *from, length, &budget)?;
         Self::of(prims, metadata, budget, Values::Text(from))

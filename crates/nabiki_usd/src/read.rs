@@ -194,8 +194,8 @@ impl StageReader {
         let of = match self.layer.interpolation(prim, NAME)?.as_deref() {
             Some("faceVarying") => Uvs::OfCorners,
             Some("vertex" | "varying") => Uvs::OfVertices,
-            Some("uniform") => return Ok(Err("they are of faces, not of places".to_owned())),
-            _ => return Ok(Err("they are one pair for all, not of places".to_owned())),
+            Some("uniform") => return Ok(Err("they belong to faces, not to points".to_owned())),
+            _ => return Ok(Err("they are one pair for all points".to_owned())),
         };
         let type_name = self.layer.prims[prim].attributes[NAME].type_name.clone();
         let mut primvars = Primvars { layer: &mut self.layer, prim, time, frame: 0, is_bound: false };
@@ -203,7 +203,7 @@ impl StageReader {
             return Ok(Err(why.to_owned()));
         }
         let uvs = primvars.tuples::<2>("st")?;
-        Ok(uvs.map(|uvs| Some(of(uvs))).ok_or_else(|| format!("no pairs of numbers are in them ({type_name})")))
+        Ok(uvs.map(|uvs| Some(of(uvs))).ok_or_else(|| format!("they are not pairs of numbers ({type_name})")))
     }
 
     /// Paths of what can move a head: prims that move themselves, then joints; where there are none, any prim.
@@ -460,14 +460,16 @@ impl GroomReader for StageReader {
         // Between two keys each operation goes its own way, a parent's turn about another: whole codes follow it.
         if let [first, .., last] = times[..] {
             if last - first > MOST_FRAMES as f64 {
-                return Err(Problem(format!("{node}: moves from time code {first} to {last}, longer than is read")));
+                return Err(Problem(format!(
+                    "{node}: moves from time code {first} to {last}, longer than nabiki reads"
+                )));
             }
             times.extend((first.ceil() as i64..=last.floor() as i64).map(|code| code as f64));
             times.sort_by(f64::total_cmp);
             times.dedup_by(|a, b| (*a - *b).abs() <= SAME_TIME);
         }
         if times.len() > MOST_FRAMES {
-            return Err(Problem(format!("{node}: moves at {} time codes, more than is read", times.len())));
+            return Err(Problem(format!("{node}: moves at {} time codes, more than nabiki reads", times.len())));
         }
         if times.is_empty() {
             times.push(0.0);

@@ -54,7 +54,7 @@ impl StageReader {
         let as_sampled = Frames::as_sampled(&codes).filter(|frames| codes.len() < 2 || are_frames(frames.step));
         as_sampled.or_else(|| Frames::whole(&codes, step)).ok_or_else(|| {
             let [first, last] = [codes[0], codes[codes.len() - 1]];
-            Problem(format!("its curves move from time code {first} to {last}, longer than is read"))
+            Problem(format!("its curves move from time code {first} to {last}, longer than nabiki reads"))
         })
     }
 

@@ -106,7 +106,7 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
     if words.len() > MOST_OPERATIONS {
         let (path, found) = (layer.path(prim), words.len());
         return Err(Problem(format!(
-            "prim {path}: {found} transforms in its xformOpOrder, and {MOST_OPERATIONS} are the most that are read: combine them"
+            "prim {path}: {found} transforms in its xformOpOrder, but nabiki reads at most {MOST_OPERATIONS}: combine them"
         )));
     }
     for word in words {
@@ -138,7 +138,7 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
             if let Some(value) = layer.at(prim, name, time)
                 && layer.has_more_than(value, MOST_NUMBERS)?
             {
-                return Err(Problem(format!("prim {}: {name} is no transform", layer.path(prim))));
+                return Err(Problem(format!("prim {}: {name} is not a transform", layer.path(prim))));
             }
             match layer.numbers_at(prim, name, time)?.as_deref() {
                 // What has no value, or one that is blocked, moves nothing in USD.
@@ -148,7 +148,7 @@ fn local(layer: &mut Layer, prim: usize, time: f64) -> Result<(DMat4, bool), Pro
         };
         let Some(operation) = operation else {
             let path = layer.path(prim);
-            return Err(Problem(format!("prim {path}: {name} is no transform that USD knows")));
+            return Err(Problem(format!("prim {path}: {name} is not a transform of USD")));
         };
         local *= if inverted { operation.inverse() } else { operation };
     }

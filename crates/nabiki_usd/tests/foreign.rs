@@ -205,7 +205,7 @@ fn what_a_groom_carries_goes_through_and_what_does_not_is_named() {
     for said in [
         "displayColor: 3 values for 5 points of 2 curves",
         "groom_id: 3 values for 5 points of 2 curves",
-        "picture, which is of a kind that is not read",
+        "picture, whose type nabiki does not read",
         "material:binding of /head",
         "attribute accelerations",
     ] {
@@ -232,7 +232,7 @@ fn types_of_more_parts_than_usd_has_are_not_read() {
         let text = CARRIED.replace("float primvars:stiffness = 0.25 ( interpolation = \"constant\" )", &indexed);
         let at = reader(text).hair(0, None).unwrap().attributes;
         assert!(at.other.iter().all(|other| other.name != "stiffness"), "{name}");
-        let said = "stiffness, which is of a kind that is not read";
+        let said = "stiffness, whose type nabiki does not read";
         assert!(at.unread.iter().any(|line| line == said), "{name}: {:?}", at.unread);
     }
 }
@@ -285,7 +285,7 @@ fn root_uvs_under_a_name_of_their_own_keep_it_and_ids_that_are_none_are_said() {
     assert_eq!(at.root_uv, Some(vec![[0.0, 0.5], [1.0, 0.25]]));
     assert!(at.other.iter().any(|o| o.name == "rootuv"));
     assert_eq!(at.id, Some(vec![7, 7]));
-    let said = "an id of its own for each strand: as read, 1 strand has the id of another";
+    let said = "unique strand ids: as read, 1 strand has the id of another";
     assert!(at.unread.iter().any(|line| line == said), "{:?}", at.unread);
 }
 
@@ -459,7 +459,7 @@ fn classes_and_inactive_prims_are_no_hair_and_absent_values_are_said() {
     assert_eq!(hair.attributes.unread, said);
     let mut hermite = reader("#usda 1.0\ndef HermiteCurves \"h\" {}\n");
     let refused = hermite.hair(0, None).unwrap_err().to_string();
-    assert_eq!(refused, "has HermiteCurves and no BasisCurves, which alone are read: convert them");
+    assert_eq!(refused, "has HermiteCurves, but nabiki reads only BasisCurves: convert them");
 }
 
 #[test]

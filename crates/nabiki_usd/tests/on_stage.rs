@@ -46,10 +46,10 @@ fn meshes_that_do_not_show_are_left_out_beside_those_that_do_and_that_is_said() 
     {
         let name = mark.rsplit(' ').next().unwrap();
         let own = mesh("other", &format!("{mark} = \"{value}\""));
-        let said = format!("mesh /other, which does not show: {name} of /other is \"{value}\"");
+        let said = format!("mesh /other, which is hidden: {name} of /other is \"{value}\"");
         assert_eq!(meshes(&format!("{head}{own}")), (1, vec![said]));
         let above = format!("def Xform \"a\" {{ {mark} = \"{value}\"\n {} }}\n", mesh("b", ""));
-        let said = format!("mesh /a/b, which does not show: {name} of /a is \"{value}\"");
+        let said = format!("mesh /a/b, which is hidden: {name} of /a is \"{value}\"");
         assert_eq!(meshes(&format!("{above}{head}")), (1, vec![said]));
         // Alone it is the head.
         assert_eq!(meshes(&own), (1, vec![format!("{name} of /other: it is \"{value}\" there")]));
@@ -111,7 +111,7 @@ fn shapes_that_are_not_read_are_said_beside_curves_and_refused_alone() {
     let said = ["NurbsCurves /n, and 1 more: only BasisCurves are read", "Points /dust: only BasisCurves are read"];
     assert_eq!(curves(&format!("{}{others}", curve("h", ""))), (1, said.map(str::to_owned).to_vec()));
     let refused = reader(others).hair(0, None).unwrap_err().to_string();
-    assert_eq!(refused, "has NurbsCurves and no BasisCurves, which alone are read: convert them");
+    assert_eq!(refused, "has NurbsCurves, but nabiki reads only BasisCurves: convert them");
 }
 
 const FLATTEN: &str = "flatten it first (usdcat --flatten IN -o OUT)";
@@ -212,13 +212,13 @@ fn splines_are_refused_as_such_in_transforms_and_said_elsewhere() {
 #[test]
 fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     let rein = curve("rein", "uniform token wrap = \"periodic\"");
-    let said = "curves /rein, which are closed, as no hair is".to_owned();
+    let said = "curves /rein, which are closed, unlike hair".to_owned();
     assert_eq!(curves(&format!("{rein}{}", curve("mane", ""))), (1, vec![said]));
     let mut both = reader(&format!("{rein}{}", curve("mane", "")));
     assert_eq!(both.contents().unwrap().curves, ["/mane"]);
     assert_eq!(both.prims().unwrap()[0].kind, PrimKind::Other("BasisCurves (closed)".to_owned()));
     let refused = reader(&rein).hair(0, None).unwrap_err().to_string();
-    assert_eq!(refused, "curves /rein: are closed, which no hair is: export them as open (nonperiodic) curves");
+    assert_eq!(refused, "curves /rein: are closed, which hair cannot be: export them as open (nonperiodic) curves");
 }
 
 #[test]
@@ -276,13 +276,13 @@ fn a_head_whose_texture_coordinates_are_none_keeps_its_shape_and_that_is_said() 
         ),
         (
             format!("token[] primvars:st = [\"a\", \"b\", \"c\", \"d\"] {vertex}"),
-            "no pairs of numbers are in them (token)",
+            "they are not pairs of numbers (token)",
         ),
-        (format!("float[] primvars:st = [0, 1, 2, 3] {vertex}"), "no pairs of numbers are in them (float)"),
-        (format!("texCoord2f[] primvars:st = [] {vertex}"), "no pairs of numbers are in them (texCoord2f)"),
+        (format!("float[] primvars:st = [0, 1, 2, 3] {vertex}"), "they are not pairs of numbers (float)"),
+        (format!("texCoord2f[] primvars:st = [] {vertex}"), "they are not pairs of numbers (texCoord2f)"),
         (
             format!("texCoord2f[] primvars:st = {four} ( interpolation = \"uniform\" )"),
-            "they are of faces, not of places",
+            "they belong to faces, not to points",
         ),
     ] {
         let (found, losses) = reader(&mesh("head", &more)).meshes_with_losses(&|_| true).unwrap();
@@ -301,7 +301,7 @@ fn curves_of_types_that_are_not_read_are_said_beside_those_that_are() {
         let said = format!("{kind} /n: only BasisCurves are read");
         assert_eq!(curves(&format!("{}{other}", curve("h", ""))), (1, vec![said]));
         let refused = reader(&other).hair(0, None).unwrap_err().to_string();
-        assert_eq!(refused, format!("has {kind} and no BasisCurves, which alone are read: convert them"));
+        assert_eq!(refused, format!("has {kind}, but nabiki reads only BasisCurves: convert them"));
         let off = format!("over \"o\" {{ {other} }}\n");
         assert_eq!(curves(&format!("{}{off}", curve("h", ""))), (1, Vec::new()));
     }
@@ -369,15 +369,15 @@ fn a_point_that_is_none_is_refused_with_the_prim_that_has_it() {
     let refused = reader(&text).hair(0, None).unwrap_err().to_string();
     assert_eq!(
         refused,
-        "curves /h: point 1 is [1, NaN, 0]: must be finite: mend it, or take its curve out, where the file was made"
+        "curves /h: point 1 is [1, NaN, 0]: must be finite: correct it or remove its curve where the file was made"
     );
 }
 
 #[test]
 fn widths_that_are_none_are_counted() {
     for (widths, said) in [
-        ("-1, nan", Some("2 of 2 widths as diameters: they are below 0 or no finite numbers")),
-        ("0.5, -1", Some("1 of 2 widths as diameters: they are below 0 or no finite numbers")),
+        ("-1, nan", Some("2 of 2 widths as diameters: they are below 0 or not finite")),
+        ("0.5, -1", Some("1 of 2 widths as diameters: they are below 0 or not finite")),
         ("0, 0", Some("widths as diameters: all are 0")),
         ("0.5, 0", None),
     ] {

@@ -218,7 +218,7 @@ fn what_is_no_operation_of_usd_is_refused() {
         ("matrix3d xformOp:transform = ( (1, 0, 0), (0, 1, 0), (0, 0, 1) )", "xformOp:transform"),
     ] {
         let refused = reader(&prim("a", &[operation], &[word], CURVE)).hair(0, None).unwrap_err().to_string();
-        assert_eq!(refused, format!("prim /a: {word} is no transform that USD knows"), "{operation}");
+        assert_eq!(refused, format!("prim /a: {word} is not a transform of USD"), "{operation}");
     }
 }
 

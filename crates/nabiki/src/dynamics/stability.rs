@@ -62,7 +62,7 @@ impl Stability {
     /// Refuses no strands, and those that cannot be moved.
     pub fn of(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
         if strands.is_empty() {
-            return Err(SettingError::new("hair", "0 strands", "there is nothing to move; give at least one strand"));
+            return Err(SettingError::new("hair", "0 strands", "nothing to simulate; give at least one strand"));
         }
         let (mut worst, mut least) = (Self { gain: 0.0, own: 0.0 }, f64::INFINITY);
         let own = dynamics.form.pulls().iter().map(|pull| pull.strongest()).sum::<f64>();
@@ -109,7 +109,7 @@ impl Named<'_> {
     fn strand(&self, s: usize, shapes: &[SegmentShape]) -> String {
         let number = self.ids.get(s).map_or(s, |&id| id as usize);
         let moving: f64 = shapes.iter().filter(|shape| shape.gain > 0.0).map(|shape| shape.length).sum();
-        let behind = if shapes.iter().any(|shape| shape.gain == 0.0) { " behind its tie" } else { "" };
+        let behind = if shapes.iter().any(|shape| shape.gain == 0.0) { " beyond its tie" } else { "" };
         format!("{} {number} ({moving:.2} cm long{behind})", self.name)
     }
 }
@@ -203,7 +203,7 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
                 .filter(|other| *other != thing)
                 .chain((strongest > 0.0).then_some("the forces"))
                 .collect();
-            let keep = format!("less of it alone does not mend it: lower {}, too", others.join(", "));
+            let keep = format!("lowering it alone is not enough: also lower {}", others.join(", "));
             refused(thing, value.to_string(), keep)
         }
     }
@@ -222,7 +222,7 @@ fn in_metres(hair: &[Named<'_>], dynamics: &Dynamics) -> String {
     if small.is_empty() {
         return String::new();
     }
-    format!("; {}: if that is in metres, give it in cm, times 100", small.join(" and "))
+    format!("; {}: if that is in metres, convert it to cm (times 100)", small.join(" and "))
 }
 
 /// With three digits, and not above the number.
@@ -279,7 +279,7 @@ mod tests {
                 }
                 prop_assert_eq!(refused(&free, force).map(|e| e.to_string()), None);
             }
-            prop_assert!(false, "five lines do not mend it");
+            prop_assert!(false, "five lines are not enough");
         }
     }
 }

@@ -129,24 +129,24 @@ impl<'a> Reader<'a> {
     pub fn new(bytes: &'a [u8], own: &Header) -> Result<Self, SettingError> {
         let found = || format!("{} bytes", bytes.len());
         if bytes.len() < HEADER + CHECKSUM || bytes[..7] != MAGIC[..7] {
-            return Err(refused(found(), "are none that state_bytes wrote, or cut short"));
+            return Err(refused(found(), "were not written by state_bytes, or are cut short"));
         }
         if bytes[7] != MAGIC[7] {
             let remedy =
-                format!("another version of nabiki wrote it, this one knows layout {}: begin from rest", MAGIC[7]);
+                format!("written by another version of nabiki, this one reads layout {}: begin from rest", MAGIC[7]);
             return Err(refused(format!("of layout {}", bytes[7]), &remedy));
         }
         let word = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         let long = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         if long(8) != bytes.len() as u64 {
-            return Err(refused(format!("{} of {}", found(), long(8)), "are cut short, or have others behind them"));
+            return Err(refused(format!("{} of {}", found(), long(8)), "are cut short, or followed by others"));
         }
         let end = bytes.len() - CHECKSUM;
         if checksum(&bytes[..end]) != long(end) {
-            return Err(refused(found(), "are not as they were written: their checksum does not fit"));
+            return Err(refused(found(), "are altered: their checksum does not match"));
         }
         if word(16) != METHOD_VERSION {
-            let remedy = format!("this is version {METHOD_VERSION}, by which hair moves otherwise: begin from rest");
+            let remedy = format!("this is version {METHOD_VERSION}, in which hair moves differently: begin from rest");
             return Err(refused(format!("of METHOD_VERSION {}", word(16)), &remedy));
         }
         let header = Header {
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
         header.check(own)?;
         let numbers: &[[u8; 4]] = bytes[HEADER..end].as_chunks().0;
         if header.numbers.checked_add(header.of_carriers) != Some(numbers.len() as u64) {
-            return Err(refused(found(), "have a header that does not fit them"));
+            return Err(refused(found(), "do not match their header"));
         }
         Ok(Self { header, numbers })
     }

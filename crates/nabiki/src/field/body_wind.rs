@@ -10,18 +10,18 @@ use crate::settings;
 use crate::smoothing::{self, smoothed};
 
 settings! {
-    /// The wind from the head's own motion, uniform in space; it needs a motion of the head.
+    /// The wind caused by the motion of the head, the same everywhere. It needs `[head.motion]`.
     ///
-    /// With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate:
-    /// F = -drag v - footfall (0, a_y, 0).
+    /// With the head's velocity v (cm/s) and acceleration a (cm/s^2), from its poses and the frame rate: F = -drag v -
+    /// footfall (0, a_y, 0).
     pub struct BodyWind in "body_wind" {
-        /// Force for each cm/s of the head, against its way.
+        /// Force per cm/s of the head's speed, opposite to its direction.
         pub drag: f32 = 0.3 => "Drag", unit "per cm/s", least 0.0;
-        /// Force for each cm/s^2 by which the head is lifted, downward. Where gravity is G, hair that is lifted with the head feels
-        /// G / 981.
+        /// Downward force per cm/s^2 of upward acceleration of the head. With gravity G, hair that is lifted with the
+        /// head feels G / 981.
         pub footfall: f32 = 0.0 => "Footfall", unit "per cm/s2", least 0.0;
-        /// Deviation of the bell by which the head's places are averaged beforehand; 0: as they are. Recorded places tremble, and
-        /// accelerations many times more.
+        /// Standard deviation of the bell that averages the head's positions for this wind. Raise it for recorded
+        /// motion, whose accelerations tremble. 0 leaves the motion as it is.
         pub smoothing: f32 = 0.0 => "Smoothing", unit "frames", least 0.0, most smoothing::MOST as f64;
     }
 }
@@ -59,7 +59,7 @@ impl BodyWindField {
         };
         let forces: Vec<Vec3> = (0..places.len()).map(force).collect();
         if let Some(n) = forces.iter().position(|force| !force.is_finite()) {
-            let remedy = "the head moves too fast for numbers: look at head.motion";
+            let remedy = "the head moves too fast: check head.motion";
             return Err(SettingError::new(format!("body_wind in frame {n}"), forces[n], remedy));
         }
         Ok(Self { forces })

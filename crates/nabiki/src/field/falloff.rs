@@ -8,9 +8,9 @@ settings! {
     /// How a local force weakens with the distance r.
     #[derive(Copy)]
     pub struct Falloff {
-        /// The law by which the force weakens.
+        /// The law by which the force weakens with distance.
         pub law: FalloffLaw = FalloffLaw::Smooth => "Falloff";
-        /// R of the law. Within a twentieth of it the force is let go to 0.
+        /// Radius R of the law. Within a twentieth of it the force fades to 0.
         pub radius: f32 = 30.0 => "Radius", unit "cm", above 0.0;
     }
 }
@@ -18,15 +18,15 @@ settings! {
 words! {
     /// How a local force weakens with the distance r, by the radius R.
     pub enum FalloffLaw = Smooth {
-        /// All, at any distance; R counts only for the core.
+        /// Full strength at any distance. R sets only the size of the core.
         None = "none",
-        /// 1 - r / R, and nothing beyond R.
+        /// 1 - r / R, and 0 beyond R.
         Linear = "linear",
-        /// 1 - 3 (r / R)^2 + 2 (r / R)^3, and nothing beyond R.
+        /// 1 - 3 (r / R)^2 + 2 (r / R)^3, and 0 beyond R.
         Smooth = "smooth",
-        /// 1 / (1 + r / R): half of it at R.
+        /// 1 / (1 + r / R): half at R.
         Inverse = "inverse",
-        /// 1 / (1 + (r / R)^2): half of it at R.
+        /// 1 / (1 + (r / R)^2): half at R.
         InverseSquare = "inverse_square",
     }
 }
@@ -77,13 +77,13 @@ fn within(x: f32) -> f32 {
 }
 
 settings! {
-    /// A part of the strength at one frame.
+    /// A keyframe of the strength.
     #[derive(Copy)]
     pub struct EnvelopeKey {
         /// The frame.
         pub frame: u32 = 0 => "Frame", must "1";
-        /// Part of the strength, any finite number.
-        pub factor: f32 = 1.0 => "Part", must "1.0";
+        /// Factor on the strength, any finite number.
+        pub factor: f32 = 1.0 => "Factor", must "1.0";
     }
 }
 

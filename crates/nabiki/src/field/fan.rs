@@ -13,17 +13,18 @@ use crate::vector::dot;
 settings! {
     /// A wind in a cone.
     pub struct Fan where blows_somewhere {
-        /// The tip of the cone, in the space of the forces.
+        /// Tip of the cone, in the space of the forces.
         pub position: Vec3 = Vec3::new(40.0, 0.0, 0.0) => "Position", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;
-        /// Where it blows, of any length but 0.
+        /// Direction of the wind. Any length except 0.
         pub direction: Vec3 = Vec3::NEG_X => "Direction", must "[x, y, z]";
-        /// |F| on the axis beside the fan; negative draws in.
+        /// Strength |F| on the axis, close to the fan. Negative values draw air in.
         pub strength: f32 = 50.0 => "Strength";
         /// Angle between the axis and the edge of the cone.
         pub spread: f32 = 30.0 => "Spread", unit "degrees", least 1.0, most 90.0;
-        /// How it weakens with the distance. Within a twentieth of its radius it is let go to 0.
+        /// How the force weakens with the distance. Within a twentieth of the radius it fades to 0.
         pub falloff: Falloff = Falloff::default() => "Falloff";
-        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        /// Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength
+        /// is constant.
         pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
     }
 }

@@ -20,9 +20,10 @@ use crate::vector::{dot, scale, scale_add, subtract};
 use carlson::{alpha, expansion, mean_square};
 
 settings! {
-    /// The way of the wind round the head, instead of through it.
+    /// Leads the wind around the head instead of through it.
     pub struct Flow in "flow" {
-        /// How far the hair on the head stands out from the head ellipsoid: the wind goes round that, too.
+        /// Thickness of the hair on the head ellipsoid: the wind flows around this layer too. Raise it for voluminous
+        /// hair.
         pub thickness: f32 = 0.0 => "Thickness", unit "cm", least 0.0, most 100.0;
     }
 }

@@ -11,20 +11,20 @@ use crate::random;
 use crate::settings;
 
 settings! {
-    /// Gusts: a random factor about 1 on the wind of the intervals, which rises and falls as wind does.
+    /// Gusts: a random factor around 1 on the wind of the intervals, which rises and falls like natural wind.
     ///
-    /// It has the spectrum of the wind's own direction after T. von Karman ("Progress in the statistical theory of turbulence", PNAS 34,
-    /// 1948) as engineers write it, `S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)`, up to a highest frequency: what is faster is not felt by
-    /// the whole head of hair at once, and is turbulence.
+    /// It has the spectrum of wind along its direction by T. von Karman ("Progress in the statistical theory of
+    /// turbulence", PNAS 34, 1948) as engineers write it, `S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)`, up to a highest
+    /// frequency. Faster changes do not reach all the hair at once; use turbulence for them.
     pub struct Gust in "gust" {
-        /// How much the wind changes: 0.15 as in open country, 0.4 as in a town. It is the root mean square of the factor about 1; above 0.4
-        /// the wind now and then turns round.
+        /// How much the wind changes: 0.15 for open country, 0.4 for a town. It is the root mean square of the change
+        /// of the factor; above 0.4 the wind sometimes reverses.
         pub intensity: f32 = 0.3 => "Intensity", least 0.0;
-        /// How long a gust takes. T: the length scale of the turbulence over the mean speed of the wind.
+        /// How long a gust takes. T is the length scale of the turbulence over the mean wind speed.
         pub time_scale: f32 = 2.0 => "Time scale", unit "s", above 0.0;
-        /// Highest frequency. What is faster is not felt by all of the hair at once.
-        pub highest: f32 = 1.0 => "Highest", unit "Hz", above 0.0;
-        /// Seed of the phases: another number, other gusts.
+        /// Highest frequency of the changes. Faster ones do not reach all the hair at once.
+        pub highest: f32 = 1.0 => "Max frequency", unit "Hz", above 0.0;
+        /// Random seed of the gusts.
         pub seed: u64 = 1 => "Seed";
     }
 }

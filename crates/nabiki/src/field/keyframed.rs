@@ -7,24 +7,25 @@ use crate::error::SettingError;
 use crate::{settings, words};
 
 settings! {
-    /// One interval of the wind: `vector` drives every frame after the interval before it, up to `through`.
+    /// One interval of the wind. `vector` applies in each frame after the previous interval, up to and including
+    /// `through`.
     #[derive(Copy)]
     pub struct Keyframe {
-        /// Last frame that feels this vector (k_j of equation (5)).
-        pub through: u32 = 100 => "Through", must "50", unit "frame";
-        /// Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair).
+        /// Last frame of the interval (k_j of equation (5)).
+        pub through: u32 = 100 => "Last frame", must "50", unit "frame";
+        /// Force F_j: direction and strength, without a unit. Only c_i |F| moves hair (section 4.3).
         pub vector: Vec3 = Vec3::ZERO => "Vector", must "[-100, 0, 0]";
     }
 }
 
 words! {
-    /// How the wind goes from one vector to the next.
+    /// How the wind changes from one vector to the next.
     pub enum Ease = Stepped {
-        /// Each vector holds through its interval: the paper's way.
+        /// Each vector applies throughout its interval, as in the paper.
         Stepped = "stepped",
-        /// Each is reached in the middle of its interval, on straight lines: e(t) = t.
+        /// Straight lines between the middles of the intervals: e(t) = t.
         Linear = "linear",
-        /// Each is reached in the middle of its interval, and set out for and arrived at gently: e(t) = 3 t^2 - 2 t^3.
+        /// Smooth curves between the middles of the intervals: e(t) = 3 t^2 - 2 t^3.
         Smooth = "smooth",
     }
 }
@@ -33,7 +34,7 @@ settings! {
     /// How the vectors of the intervals follow one another.
     #[derive(Eq)]
     pub struct Wind in "wind" {
-        /// How one vector follows another.
+        /// How the wind changes from one vector to the next.
         pub ease: Ease = Ease::Stepped => "Ease";
     }
 }

@@ -9,16 +9,17 @@ use crate::setting::Place;
 use crate::settings;
 
 settings! {
-    /// A point that blows or draws.
+    /// A point that pushes or pulls.
     pub struct Point where comes_in_order {
-        /// Where it is, in the space of the forces.
+        /// Position, in the space of the forces.
         pub position: Vec3 = Vec3::new(-30.0, 0.0, 0.0) => "Position", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;
-        /// |F| beside the point; negative draws in.
+        /// Strength |F| close to the point. Negative values pull.
         pub strength: f32 = 50.0 => "Strength";
-        /// How it weakens with the distance. Within a twentieth of its radius the direction, which has no meaning at the
-        /// centre, is let go to 0.
+        /// How the force weakens with the distance. Within a twentieth of the radius it fades to 0, since it has no
+        /// direction at the centre.
         pub falloff: Falloff = Falloff::default() => "Falloff";
-        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        /// Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength
+        /// is constant.
         pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
     }
 }

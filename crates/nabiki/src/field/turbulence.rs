@@ -22,32 +22,33 @@ use crate::settings;
 use crate::vector::{cross, dot, scale, scale_add, subtract};
 
 settings! {
-    /// Turbulence: a random force without sources, which drifts with the wind and changes on its way.
+    /// Turbulence: a random force of swirls that drift with the wind and change on the way.
     ///
-    /// It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the head the
-    /// potential is let go to 0 by Bridson's ramp, so that the force runs along the head.
+    /// It is the curl of a random vector potential, a sum of octaves that each have half the size of the one before.
+    /// Near the head, Bridson's ramp reduces the potential to 0, so the force runs along the head.
     pub struct Turbulence in "turbulence" where its_swirls_are_large_enough {
-        /// Root mean square of |F| over space, far from the head.
+        /// Strength far from the head: the root mean square of |F| over space.
         pub strength: f32 = 30.0 => "Strength", least 0.0;
-        /// Size of the largest swirls, half of the wavelengths that they are made of. Those of the last octave must be at least 0.01 cm
-        /// large, too.
+        /// Size of the largest swirls, half of their wavelengths. The swirls of the last octave must be at least 0.01
+        /// cm as well.
         pub swirl_size: f32 = 10.0 => "Swirl size", unit "cm", least 0.01, most 1e6;
-        /// Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change. Without drift the whole
-        /// pattern comes again after 16 times as many.
-        pub pulse_length: f32 = 48.0 => "Pulse", unit "frames", least 0.0;
-        /// Strength of each octave by that of the one before; 0.79 is Kolmogorov's.
+        /// Approximate number of frames in which a swirl reverses and returns. 0 makes swirls drift without changing.
+        /// Without drift, the pattern repeats after 16 times this number.
+        pub pulse_length: f32 = 48.0 => "Pulse length", unit "frames", least 0.0;
+        /// Strength of each octave relative to the one before. 0.79 is that of Kolmogorov.
         pub roughness: f32 = 0.5 => "Roughness", least 0.0, most 1.0;
-        /// Octaves, each half as large as the one before. Time is spent on each.
+        /// Number of octaves, each half the size of the one before. More give finer swirls and take longer.
         pub octaves: u32 = 2 => "Octaves", least 1.0, most Turbulence::MOST_OCTAVES as f64;
-        /// Way that the swirls go in a frame for each unit of the wind.
+        /// Distance that the swirls drift per frame and unit of wind.
         pub drift: f32 = 0.02 => "Drift", unit "cm", least 0.0;
-        /// Distance from the head ellipsoid within which the force is turned along it; 0: it knows nothing of the head. It is what E's own
-        /// measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from the centre, and at most the mean half
-        /// axis.
+        /// Distance from the head ellipsoid within which the force turns along the head. 0 ignores the head. The
+        /// distance is measured as (|q| - 1) times the mean half axis, with q the point in half axes from the centre,
+        /// and is at most the mean half axis.
         pub near_head: f32 = 4.0 => "Near the head", unit "cm", least 0.0;
-        /// Seed of the random vectors: another number, other swirls.
+        /// Random seed of the swirls.
         pub seed: u64 = 1 => "Seed";
-        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        /// Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength
+        /// is constant.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
     }

@@ -10,17 +10,18 @@ use crate::settings;
 use crate::vector::cross;
 
 settings! {
-    /// A whirl: a force round an axis.
+    /// A vortex: a force around an axis.
     pub struct Vortex where has_an_axis {
         /// A point of the axis, in the space of the forces.
         pub position: Vec3 = Vec3::new(-20.0, 0.0, 0.0) => "Position", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;
-        /// Along the axis, of any length but 0: hair goes round it counter-clockwise as seen from its tip.
+        /// Direction of the axis, of any length except 0. Hair goes around it counter-clockwise as seen from its tip.
         pub axis: Vec3 = Vec3::Y => "Axis";
-        /// |F| beside the axis; negative goes round the other way.
+        /// Strength |F| close to the axis. Negative values turn the other way.
         pub strength: f32 = 50.0 => "Strength";
-        /// How it weakens with the distance from the axis. Within a twentieth of its radius it is let go to 0.
+        /// How the force weakens with the distance from the axis. Within a twentieth of the radius it fades to 0.
         pub falloff: Falloff = Falloff::default() => "Falloff";
-        /// Parts of the strength over frames, on straight lines from key to key; all of it always without keys.
+        /// Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength
+        /// is constant.
         pub envelope: Vec<EnvelopeKey> = Vec::new() => "Over time";
     }
 }

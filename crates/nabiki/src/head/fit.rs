@@ -25,7 +25,8 @@ struct Sample {
 /// The ellipsoid through the scalp of a mesh that [`super::check_mesh`] accepts (the mesh's unit).
 pub(super) fn scalp(mesh: &Mesh) -> Result<Ellipsoid, SettingError> {
     let none = || {
-        let remedy = "found no skull at its top (+y): mend head.unit, head.up or head.groups, or give head.ellipsoid";
+        let remedy =
+            "found no skull at its top (+y): correct head.unit, head.up or head.groups, or give head.ellipsoid";
         super::refused_mesh(mesh, "no skull", remedy)
     };
     let samples = samples(mesh);

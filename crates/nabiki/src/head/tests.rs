@@ -171,7 +171,10 @@ fn a_head_beyond_any_size_is_refused() {
     for (size, said) in [(1e-9, "a head of 1.000e-9 cm"), (1e20, "a head of 1.000e20 cm")] {
         let ball = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::splat(size) };
         let line = refused(egg(ball, 12), Some(ball));
-        assert!(line.starts_with("head.mesh = ") && line.contains(said) && line.ends_with("mend head.unit"), "{line}");
+        assert!(
+            line.starts_with("head.mesh = ") && line.contains(said) && line.ends_with("correct head.unit"),
+            "{line}"
+        );
     }
 }
 

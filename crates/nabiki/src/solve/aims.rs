@@ -46,7 +46,7 @@ impl Aims {
     pub fn new(problem: &Problem) -> Result<Self, SettingError> {
         let Problem { hair, wishes, dynamics, .. } = problem;
         if wishes.is_empty() {
-            let remedy = "there is nothing to solve for: give a wish";
+            let remedy = "nothing to solve for: give a wish";
             return Err(SettingError::new("wish", "none", remedy));
         }
         for (i, wish) in wishes.iter().enumerate() {
@@ -244,7 +244,7 @@ pub(super) fn check_goal(goal: &Goal, nodes: usize, wish: usize) -> Result<(), S
         Goal::MeanMoved(by) => finite("mean_moved", by),
         Goal::Places(places) if places.len() != nodes => {
             let value = format!("{} places", places.len());
-            let remedy = format!("the wish is about {nodes} nodes: give each a place, or their mean one");
+            let remedy = format!("the wish has {nodes} nodes: give a place for each, or one mean place");
             Err(SettingError::new(format!("wish[{wish}].places"), value, remedy))
         }
         Goal::Places(places) => places.iter().try_for_each(|place| finite("places", place)),
@@ -255,14 +255,14 @@ fn check(wish: &Wish, i: usize, problem: &Problem, frames: u32) -> Result<(), Se
     let refused =
         |key: &str, value: String, remedy: String| Err(SettingError::new(format!("wish[{i}].{key}"), value, remedy));
     if !(1..=frames).contains(&wish.frame) {
-        let remedy = format!("the scene has frames 1 to {frames} in which hair moves");
+        let remedy = format!("hair moves in frames 1 to {frames} of the scene");
         return refused("frame", wish.frame.to_string(), remedy);
     }
     if !(wish.weight.is_finite() && wish.weight > 0.0) {
         return refused("weight", wish.weight.to_string(), "must be a finite number above 0".to_owned());
     }
     if wish.nodes.is_empty() {
-        return refused("nodes", "none".to_owned(), "the wish is about no node: take a larger radius".to_owned());
+        return refused("nodes", "none".to_owned(), "the wish contains no node: give a larger radius".to_owned());
     }
     for node in &wish.nodes {
         let strand = node.strand as usize;

@@ -251,13 +251,12 @@ fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynami
     };
     let free = |thing: &str, of: fn(&FreeForm) -> &Profile| match &dynamics.form {
         Form::Free(free) if of(&free.form).values().iter().all(|&value| value == 0.0) => {
-            let remedy =
-                "it is 0 everywhere, and is found as a factor, which leaves it 0: give it a strength, or remove this";
+            let remedy = "it is 0 everywhere, and the solver only scales it: give it a strength, or remove this";
             Err(SettingError::new(thing, true, remedy))
         }
         Form::Free(_) => Ok(()),
         Form::Paper => {
-            let remedy = "hair of the paper's form has none: set motion.form = \"free\", or leave it as it is";
+            let remedy = "the paper's form has none: set motion.form = \"free\", or remove this";
             Err(SettingError::new(thing, true, remedy))
         }
     };
@@ -265,7 +264,7 @@ fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynami
         Unknown::Vector(j) if j >= intervals => Err(SettingError::new("unknowns.vectors", j, there())),
         Unknown::Border(j) if j >= intervals => Err(SettingError::new("unknowns.borders", j, there())),
         Unknown::Border(j) if j + 1 == intervals => {
-            let remedy = "the last interval holds for good and meets no other: free the border of one before it";
+            let remedy = "the last interval has no border after it: free the border of an earlier one";
             Err(SettingError::new("unknowns.borders", j, remedy))
         }
         Unknown::Gust if wind.gust.is_none() => {

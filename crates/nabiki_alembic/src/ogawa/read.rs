@@ -32,11 +32,13 @@ impl<R: Read + Seek> Reader<R> {
         let mut head = [0; 16];
         from.read_exact(&mut head).map_err(|_| Problem::new("is shorter than an Alembic archive's header"))?;
         if head.starts_with(b"\x89HDF") {
-            return Err(Problem::new("is Alembic in the old HDF5 form: write it again as Ogawa (any tool since 2013)"));
+            return Err(Problem::new(
+                "is an Alembic archive in the old HDF5 form: export it again as Ogawa (any tool since 2013)",
+            ));
         }
         let [version_high, version_low] = [head[6], head[7]];
         if head[..5] != HEADER[..5] || [version_high, version_low] != HEADER[6..] {
-            return Err(Problem::new("is no Alembic archive of the Ogawa form"));
+            return Err(Problem::new("is not an Alembic archive in Ogawa form"));
         }
         if head[5] != 0xff {
             return Err(Problem::new("was never finished by the program that wrote it"));

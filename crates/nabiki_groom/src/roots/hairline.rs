@@ -6,27 +6,28 @@ use nabiki::glam::Vec3;
 use nabiki::{Ellipsoid, settings};
 
 settings! {
-    /// Where hair grows: how far the hairline runs below the crown, all about the head.
+    /// Where hair grows: how far the hairline runs below the crown, all around the head.
     ///
-    /// Depths are measured straight down from the highest point of the head ellipsoid E, in units of the mean of its two
-    /// horizontal half axes (8.65 cm on the built-in bust), so that a hairline fits heads of any size.
+    /// Depths are measured straight down from the top of the head ellipsoid E. The unit is the mean of its two
+    /// horizontal half axes, 8.65 cm on the built-in bust, so a hairline fits heads of any size.
     pub struct Hairline in "hair.hairline" {
-        /// Depth of the line over the middle of the forehead. 0.5 is 4.3 cm on the bust.
+        /// Depth of the line above the middle of the forehead. 0.5 is 4.3 cm on the bust.
         pub forehead: f32 = 0.5 => "Forehead", least 0.0, most 2.0;
-        /// How much higher than that the line stands over the temples. 0.05 is 0.4 cm on the bust.
+        /// How much higher the line is at the temples than at the forehead. 0.05 is 0.4 cm on the bust.
         pub temple_recession: f32 = 0.05 => "Temples", least -0.5, most 0.5;
         /// Depth of the lower end of the sideburns, in front of the ears. 1.45 is 12.5 cm on the bust.
         pub sideburns: f32 = 1.45 => "Sideburns", least 0.0, most 2.5;
         /// Depth of the line above the ears. 0.98 is 8.5 cm on the bust.
         pub above_ears: f32 = 0.98 => "Above the ears", least 0.0, most 2.5;
-        /// How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs. 0.25 is 2.2 cm on the
-        /// bust.
+        /// How much farther forward the line comes down behind the ears. It shows when hair is tied up. 0.25 is 2.2 cm
+        /// on the bust.
         pub behind_ears: f32 = 0.0 => "Behind the ears", least 0.0, most 0.25;
-        /// Depth of the line on the nape. 2.1 is 18 cm on the bust.
+        /// Depth of the line at the nape. 2.1 is 18 cm on the bust.
         pub nape: f32 = 2.1 => "Nape", least 0.0, most 2.8;
-        /// Height over which hair thins out at the line. 0.1 is 0.9 cm on the bust.
+        /// Height of the band along the line in which hair thins out. 0.1 is 0.9 cm on the bust.
         pub fade: f32 = 0.1 => "Fade", least 0.0, most 1.0;
-        /// How far the line wanders up and down, in waves of one to three centimetres on the bust.
+        /// How far the line wanders up and down, in waves of 1 to 3 cm on the bust. Raise it for a less regular
+        /// hairline.
         pub wander: f32 = 0.0 => "Wander", least 0.0, most 0.3;
     }
 }

@@ -14,7 +14,7 @@ pub(crate) fn parents(document: &Document) -> Result<Vec<Option<usize>>> {
     for node in document.nodes() {
         for child in node.children() {
             if parents[child.index()].replace(node.index()).is_some() {
-                return Err(Error::new(format!("node {} hangs below two others", child.index())));
+                return Err(Error::new(format!("node {} has two parents", child.index())));
             }
         }
     }

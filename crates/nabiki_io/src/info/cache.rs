@@ -61,7 +61,7 @@ impl fmt::Display for CacheInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "motion cache: {} frames at {} a second, of scene {}", self.frames, self.frame_rate, self.scene)?;
         if let Some(shard) = &self.shard {
-            writeln!(f, "shard {shard}; nabiki join puts all of them together")?;
+            writeln!(f, "shard {shard}; nabiki join combines all of them")?;
         }
         let head = if self.head_moves { "moves" } else { "stands still" };
         writeln!(

@@ -149,7 +149,7 @@ impl fmt::Display for MeshInfo {
             });
             write!(f, "\nnodes: {}", list(&self.nodes))?;
             write!(f, "\nclips: {}", list(&clips.collect::<Vec<_>>()))?;
-            write!(f, "\nas motion: facing +z; to be given in the scene: node, clip")?;
+            write!(f, "\nas motion: facing +z; required in the scene: node, clip")?;
         }
         if let (Some(cm), Some(up)) = (self.unit_cm, &self.up) {
             write!(f, "\nits format says: unit {}, up {up}; facing: unknown", Unit { cm })?;

@@ -28,7 +28,7 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
         unread.push("KHR_texture_transform: texture coordinates are as the meshes have them".to_owned());
     }
     if used("EXT_mesh_gpu_instancing") {
-        unread.push("EXT_mesh_gpu_instancing: each mesh stands once, where its node has it".to_owned());
+        unread.push("EXT_mesh_gpu_instancing: each mesh is used once, at its node".to_owned());
     }
     if mesh.triangles.is_empty()
         && let Some(mode) =
@@ -270,7 +270,7 @@ fn texture_coordinates(primitive: &gltf::Primitive, buffers: &Buffers<'_>, count
     }
     let uvs = numbers::<2>(&accessor, buffers, Whole::AsSaid, "texture coordinates")?;
     match uvs.iter().find(|uv| !Vec2::from(**uv).is_finite()) {
-        Some([u, v]) => Err(Error::new(format!("({u}, {v}) is no place of a texture"))),
+        Some([u, v]) => Err(Error::new(format!("({u}, {v}) is not a texture coordinate"))),
         None => Ok(Some(uvs.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect())),
     }
 }

@@ -136,9 +136,7 @@ fn check_counts(encoding: Encoding, elements: &[Element], body: &[u8]) -> Result
     let mut least = 0usize;
     for Element { name, count, properties } in elements {
         if properties.is_empty() && *count > 0 {
-            return Err(Error::new(format!(
-                "claims {count} of {name}, which have no properties: there is nothing of them"
-            )));
+            return Err(Error::new(format!("claims {count} of {name}, which have no properties")));
         }
         let least_of = |property: &Property| match encoding {
             // A digit and a blank.
@@ -151,7 +149,7 @@ fn check_counts(encoding: Encoding, elements: &[Element], body: &[u8]) -> Result
         if least > body.len() + 1 {
             let found = body.len();
             return Err(Error::new(format!(
-                "claims {count} of {name}, more than its {found} bytes hold: is it whole?"
+                "claims {count} of {name}, more than its {found} bytes hold: is it complete?"
             )));
         }
     }

@@ -42,14 +42,14 @@ pub(super) fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
 }
 
 fn next<'a>(lines: &mut Lines<'a>, wanted: &str) -> Result<(usize, &'a str)> {
-    lines.next().ok_or_else(|| Error::new(format!("ends where {wanted} should follow: is it whole?")))
+    lines.next().ok_or_else(|| Error::new(format!("ends where {wanted} should follow: is it complete?")))
 }
 
 /// The number behind `keyword`.
 fn count<'a>(lines: &mut Lines<'a>, keyword: &str) -> Result<u32> {
     let (number, line) = next(lines, keyword)?;
     let count = line.strip_prefix(keyword).and_then(|rest| rest.trim().parse().ok());
-    count.ok_or_else(|| obj_text::refusal(line, number, &format!("{keyword} and a number should stand here")))
+    count.ok_or_else(|| obj_text::refusal(line, number, &format!("{keyword} and a number expected here")))
 }
 
 /// The line of the `wanted`th `thing`: its number, itself, and its words behind the index.
@@ -61,7 +61,7 @@ fn entry<'a>(
     let (number, line) = next(lines, &format!("{thing} {wanted}"))?;
     let mut words = line.split_ascii_whitespace();
     if words.next().and_then(|word| word.parse().ok()) != Some(wanted) {
-        return Err(obj_text::refusal(line, number, &format!("{thing} {wanted} should stand here")));
+        return Err(obj_text::refusal(line, number, &format!("{thing} {wanted} expected here")));
     }
     Ok((number, line, words))
 }

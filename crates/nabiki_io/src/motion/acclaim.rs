@@ -170,7 +170,7 @@ impl Skeleton {
         skeleton.degrees =
             angle.ok_or_else(|| Error::new(":units has no angle: a line angle deg or angle rad is needed"))?;
         if skeleton.bones.len() == 1 || open.is_some() {
-            return Err(Error::new("has no whole :bonedata: is it a whole Acclaim skeleton?"));
+            return Err(Error::new("has no complete :bonedata: is it a complete Acclaim skeleton?"));
         }
         Ok(skeleton)
     }
@@ -184,7 +184,7 @@ impl Skeleton {
         let numbers: Vec<usize> = numbers.collect::<Result<_>>()?;
         for &child in &numbers[1..] {
             if child == 0 || self.bones[child].parent.replace(numbers[0]).is_some() {
-                return Err(refusal(line, format!("bone {}: hangs below two others", self.bones[child].name)));
+                return Err(refusal(line, format!("bone {}: has two parents", self.bones[child].name)));
             }
         }
         Ok(())
@@ -234,7 +234,7 @@ impl Skeleton {
                     frame = Some((line, next));
                 }
                 [name, ..] if frame.is_some() => self.fill(&mut row, line, name, &words[1..], samples.len() + 1)?,
-                _ => return Err(refusal(line, format!("\"{:.40}\": a frame's number should stand here", words[0]))),
+                _ => return Err(refusal(line, format!("\"{:.40}\": a frame's number expected here", words[0]))),
             }
         }
         let (begun, _) = frame.ok_or_else(|| Error::new("holds no frames: is it Acclaim motion?"))?;
@@ -346,7 +346,7 @@ fn sample_rate(in_file: Option<f64>, in_scene: Option<f64>) -> Result<f64> {
         (Some(rate), None) | (None, Some(rate)) => rate,
         (Some(rate), Some(_)) => {
             return Err(Error::new(format!(
-                "frames_per_second: the file itself says {rate} samples a second; remove frames_per_second"
+                "frames_per_second: the file already has {rate} samples per second; remove frames_per_second"
             )));
         }
         (None, None) => return Err(asked("frames_per_second", "120")),

@@ -101,7 +101,7 @@ fn what_is_missing_or_does_not_fit_is_said_in_one_line() {
         ("name Head", "name neck", "bone neck: defined twice"),
         ("  Neck Head", "  Neck Hat", "\"Hat\": no bone of that name is in :bonedata"),
         ("  Neck Head\n", "", "bone head: :hierarchy does not hang it below the root"),
-        ("  Neck Head\n", "  Neck Head\n  Head Neck\n", "bone Neck: hangs below two others"),
+        ("  Neck Head\n", "  Neck Head\n  Head Neck\n", "bone Neck: has two parents"),
         ("  root Neck\n  Neck Head\n", "  Head Neck\n  Neck Head\n", "a bone is its own ancestor"),
         (":bonedata", ":bones", "\"Neck\": no bone of that name is in :bonedata"),
         (":bonedata\n", ":bonedata\n length 3\n", "\"length\": a bone begins with begin"),
@@ -111,13 +111,13 @@ fn what_is_missing_or_does_not_fit_is_said_in_one_line() {
         ("Neck 0 90 0", "Tail 0 90 0", "bone Tail is not in the skeleton"),
         ("Neck 0 90 0", "Neck 0 90 0\nNeck 0 90 0", "bone Neck: twice in one frame"),
         ("\n2\n", "\n3\n", "frame 3 follows frame 1: frames must be without gaps"),
-        ("\n1\n", "\n", "\"root\": a frame's number should stand here"),
+        ("\n1\n", "\n", "\"root\": a frame's number expected here"),
     ] {
         let found = refused(from, to);
         assert!(found.contains(said), "{from:?} -> {to:?}: {found}");
     }
     let cut = Skeleton::read(&ASF[..ASF.find("name Head").unwrap()]).err().unwrap().to_string();
-    assert_eq!(cut, "has no whole :bonedata: is it a whole Acclaim skeleton?");
+    assert_eq!(cut, "has no complete :bonedata: is it a complete Acclaim skeleton?");
     let error = |amc: &str, node: &str, rate| read_track(ASF, amc, node, rate).unwrap_err().to_string();
     assert_eq!(error(AMC, "Haed", None), "no bone \"Haed\": node can be root, Neck, Head");
     assert_eq!(

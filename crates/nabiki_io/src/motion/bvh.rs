@@ -74,7 +74,7 @@ fn motion(words: &mut Words<'_>, joints: &[Joint], columns: usize, chain: &[usiz
         frame += 1;
     }
     if frame == 0 {
-        return Err(Error::new(format!("declares {frames} frames and has none: is it whole?")));
+        return Err(Error::new(format!("declares {frames} frames and has none: is it complete?")));
     }
     if frame as f64 != frames {
         track.unlike = Some(format!("the {frame} frames that are there, of {frames} declared"));

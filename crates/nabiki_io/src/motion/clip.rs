@@ -102,7 +102,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         source.node,
         end - start,
         source.changes(),
-        if grows { "; not obeyed: its scale, which changes" } else { "" },
+        if grows { "; ignored: its scale, which changes" } else { "" },
     );
     let poses = poses(&world_from_file, samples.into_iter(), source)?;
     // Meshes stand in the still pose, from which turns are counted.

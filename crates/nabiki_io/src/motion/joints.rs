@@ -9,14 +9,14 @@ const DEEPEST: usize = 1000;
 /// Poses of joints that the frames of a motion may take in all: three hours of a chain of thirty.
 const MOST_POSES: usize = 1 << 23;
 
-/// Refuses a motion of a chain of so many joints that is longer than is read.
+/// Refuses a motion of a chain of so many joints that is longer than nabiki reads.
 pub(super) fn check_poses(joints: usize, frames: usize) -> Result<()> {
     if joints.saturating_mul(frames) <= MOST_POSES {
         return Ok(());
     }
     Err(Error::new(format!(
-        "moves {joints} joints one below the other over {frames} frames or more: that is more than are read; bake the motion of \
-         the head alone, or cut it into parts"
+        "moves a chain of {joints} joints over {frames} frames or more: that is more than nabiki reads; bake only the motion \
+         of the head, or cut it into parts"
     )))
 }
 
@@ -86,7 +86,7 @@ impl Tree<'_> {
                 return Err(Error::new(format!("a {} is its own ancestor", self.kind)));
             }
             if chain.len() > DEEPEST {
-                let what = format!("a {} has more than {DEEPEST} ancestors, which is more than are read", self.kind);
+                let what = format!("a {} has more than {DEEPEST} ancestors, more than nabiki reads", self.kind);
                 return Err(Error::new(what));
             }
         }

@@ -61,7 +61,7 @@ impl Track {
             Short(world_from_file.unit_cm as f32),
             world_from_file.up,
             world_from_file.facing,
-            self.left_out.map_or_else(String::new, |what| format!("; not obeyed: {what}")),
+            self.left_out.map_or_else(String::new, |what| format!("; ignored: {what}")),
             self.unlike.as_ref().map_or_else(String::new, |unlike| format!("; {unlike}")),
         );
         Ok(HeadMotion { frame_rate, poses, bound, first_frame, report })

@@ -9,56 +9,57 @@ use crate::error::{Error, Result};
 use crate::kind::extension;
 
 settings! {
-    /// Which file moves the head, and what that file cannot say itself.
+    /// The file that moves the head, and what the file does not contain.
     pub struct MotionSource {
-        /// A .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m, pz_m (or
-        /// _cm, _mm), qx, qy, qz, qw.
+        /// The motion: a .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv. A .csv has the
+        /// columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw.
         pub file: PathBuf = PathBuf::new() => "File";
-        /// File of the skeleton that the motion moves: the .asf of an .amc, the .tof with the skeleton of a .tof animation.
-        /// Others have none.
+        /// Skeleton file of the motion: the .asf of an .amc, or the .tof with the skeleton of a .tof animation. Other
+        /// formats have none.
         pub skeleton: Option<PathBuf> = None => "Skeleton", open "none";
-        /// Joint, bone or node that carries the head; capitals do not count. Not used for .csv.
+        /// Joint, bone or node that carries the head. Case does not matter. Not used for .csv.
         pub node: String = "Head".to_owned() => "Node";
-        /// Animation of a .glb or .gltf by name; may stay empty where there is one only.
+        /// Name of the animation in a .glb or .gltf. Needed only if there are several.
         pub clip: String = String::new() => "Clip";
-        /// Length of the file's unit. Needed for .bvh, .tof and .abc; .glb and .gltf are in metres unless said here, .amc in
-        /// inches times the `length` of its .asf; .csv and USD name their own.
+        /// Length of the file's unit. Required for .bvh, .tof and .abc. A .glb or .gltf is in metres unless you set
+        /// this, an .amc in inches times the `length` of its .asf. A .csv or USD file names its own unit.
         pub unit_cm: Option<f64> = None => "Unit", unit "cm", above 0.0, open "what the file says";
-        /// Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb, .gltf and .abc; USD names its own.
+        /// Up axis of the file's world. Required for .bvh, .amc, .tof and .csv. It is +y in .glb, .gltf and .abc; USD
+        /// files name their own.
         pub up: Option<Axis> = None => "Up", open "what the file says";
-        /// Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb and .gltf:
-        /// +z in those, whose node is unturned as the file's still pose has it; and but for a USD layer or Alembic archive that the mesh
-        /// is from, too, which face as the mesh does. A bone of an .amc is unturned as the .asf has it, a joint of a .tof where its axes
-        /// are the world's.
+        /// Axis of the file's world along which the character looks while the joint is unturned. Not required for .glb
+        /// and .gltf, where it is +z in the still pose, nor for a USD layer or Alembic archive that the mesh is from
+        /// too. A bone of an .amc is unturned in the rest pose of the .asf, a joint of a .tof when its axes are those
+        /// of the world.
         pub facing: Option<Axis> = None => "Facing", open "what the file says";
-        /// Samples a second. Needed for an .amc, which seldom says; all others say it themselves.
-        pub frames_per_second: Option<f64> = None => "Samples", unit "a second", above 0.0, open "what the file says";
-        /// Samples dropped at the start, as of a T-pose. Not for .glb and .gltf.
+        /// Sample rate of the file. Required for most .amc files; all other formats contain it.
+        pub frames_per_second: Option<f64> = None => "Sample rate", unit "per second", above 0.0, open "what the file says";
+        /// Number of samples to drop at the start, for example a T-pose. Not for .glb and .gltf.
         pub skip: usize = 0 => "Skip", unit "samples";
-        /// How positions between two samples are found. Rotations turn at a constant rate (slerp). Not for .glb and .gltf, whose
-        /// channels say it themselves.
+        /// How to interpolate positions between two samples. Rotations turn at a constant rate (slerp). Not for .glb
+        /// and .gltf, whose channels define it.
         pub positions: Interpolation = Interpolation::Cubic => "Positions";
-        /// How fast the motion is played: 0.25 takes four times as long.
+        /// Playback speed of the motion. 0.25 makes it four times as long.
         pub speed: f64 = 1.0 => "Speed", least 0.01, most 100.0;
-        /// Deviation of the bell that places and turns are averaged by, in frames of the scene; 0: as they are. Recordings tremble, and
-        /// hair feels accelerations.
+        /// Standard deviation of the bell that averages positions and rotations, in frames of the scene. Raise it if a
+        /// recording trembles, since hair feels accelerations. 0 leaves the motion as it is.
         pub smoothing: f32 = 0.0 => "Smoothing", unit "frames", least 0.0, most smoothing::MOST as f64;
-        /// Whether the first frame is moved to the world's origin and turned about y to face +x.
+        /// Whether to move the first frame to the world's origin and turn it about y to face +x.
         pub start_at_origin: bool = false => "Start at origin";
-        /// Whether the mesh stands in its file as the first frame has it, wherever that is and however it is turned there, as one out of
-        /// the same scene does: it is then carried on from there. Beside a joint of the same USD layer it stands as the skeleton binds it.
-        /// Hair that grows on a head stands there as well.
+        /// Whether the mesh is already placed as the first frame has it, as in a file that contains both mesh and
+        /// motion. The motion then carries the mesh on from there. With a joint of the same USD layer, the mesh is
+        /// placed as the skeleton binds it. Hair that grows on the head goes along.
         pub bind_at_start: bool = false => "Bind at start";
     }
 }
 
 words! {
-    /// How a position between two samples is found.
+    /// How to interpolate a position between two samples.
     pub enum Interpolation {
-        /// On the straight line between them.
+        /// Straight lines between samples.
         Linear = "linear",
-        /// On the Hermite cubic whose velocity at a sample is that of the parabola through it and its two neighbours; at the first and
-        /// the last, through the three there.
+        /// A Hermite cubic. The velocity at a sample is that of the parabola through it and its two neighbours; at the
+        /// first and last sample, through the three samples there.
         Cubic = "cubic",
     }
 }
@@ -94,7 +95,7 @@ impl MotionSource {
             (self.positions != Interpolation::Cubic && is_clip, "positions"),
         ];
         if self.start_at_origin && self.bind_at_start {
-            let line = "start_at_origin and bind_at_start = true: the first frame cannot be both at the origin and where the file has it";
+            let line = "start_at_origin and bind_at_start = true: the first frame cannot be both at the origin and at its place in the file";
             return Err(Error::of_setting(line));
         }
         match useless.into_iter().find(|&(given, _)| given) {

@@ -120,7 +120,7 @@ impl fmt::Display for MotionInfo {
             None if self.asked.contains(&"unit_cm") => {}
             None => write!(f, "unit: as its skeleton says; ")?,
         }
-        write!(f, "unknown, to be given in the scene: {}", self.asked.join(", "))
+        write!(f, "not in the file, required in the scene: {}", self.asked.join(", "))
     }
 }
 

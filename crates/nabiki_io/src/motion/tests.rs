@@ -84,7 +84,7 @@ fn the_frames_that_are_there_count_and_not_those_that_are_declared() {
     assert!(
         refused(text(4, 3) + "1 2 3\n").contains("frame 3 of 4, Hips.Xrotation: ends where a number should follow")
     );
-    assert_eq!(refused(text(3, 0)), "declares 3 frames and has none: is it whole?");
+    assert_eq!(refused(text(3, 0)), "declares 3 frames and has none: is it complete?");
     assert!(refused(text(1, 1) + "and more\n").contains("frame 1 of 1, Hips.Zposition: \"and\": its value must be"));
 }
 
@@ -99,7 +99,7 @@ fn a_joints_name_is_the_rest_of_its_line() {
         assert_eq!(bvh::track(&text, name).unwrap().samples, plain, "{joint:?}");
     }
     let refused = bvh::track(&text.replace("JOINT Head", "JOINT"), "Head").unwrap_err();
-    assert_eq!((refused.line, &*refused.what), (Some(7), "\"{\": a joint's name should stand here"));
+    assert_eq!((refused.line, &*refused.what), (Some(7), "\"{\": a joint's name expected here"));
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn an_error_in_motion_names_file_line_and_channel() {
     );
     assert_eq!(
         refused(channels, "0 0 0 0 0 0 0 0"),
-        "walk.bvh: frame 0 of 1, Head.Yrotation: ends where a number should follow: is it whole?"
+        "walk.bvh: frame 0 of 1, Head.Yrotation: ends where a number should follow: is it complete?"
     );
     assert_eq!(
         refused("Zrotation Wrotation Yrotation", "0 0 0 0 0 0 0 0 0"),

@@ -167,7 +167,7 @@ fn object<'a>(text: &'a str, class: &str) -> Result<(Words<'a>, HashMap<String, 
     loop {
         let word = words.next(class).map_err(|_| {
             let held = if others.is_empty() { "nothing".to_owned() } else { others.join(", ") };
-            Error::new(format!("holds no {class} but {held}: is this the file that was meant?"))
+            Error::new(format!("holds no {class} but {held}: is this the right file?"))
         })?;
         match word {
             "declare" => {
@@ -231,7 +231,7 @@ impl Words<'_> {
     fn text(&mut self, wanted: &str) -> Result<String> {
         let word = self.next(wanted)?;
         let inner = word.strip_prefix('"').and_then(|word| word.strip_suffix('"'));
-        let inner = inner.ok_or_else(|| self.refusal(word, &format!("{wanted} in quotes should stand here")))?;
+        let inner = inner.ok_or_else(|| self.refusal(word, &format!("{wanted} in quotes expected here")))?;
         let mut escaped = false;
         let kept = inner.chars().filter(|&c| {
             escaped = c == '\\' && !escaped;
@@ -242,7 +242,7 @@ impl Words<'_> {
 
     fn count(&mut self, what: &str) -> Result<u32> {
         let word = self.next("a count")?;
-        word.parse().map_err(|_| self.refusal(word, &format!("the number of {what} should stand here")))
+        word.parse().map_err(|_| self.refusal(word, &format!("the number of {what} expected here")))
     }
 
     fn key(&mut self) -> Result<Key> {

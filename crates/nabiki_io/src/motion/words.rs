@@ -36,7 +36,7 @@ impl<'a> Words<'a> {
         let rest = rest.trim_ascii_start();
         let length = if self.quotes && rest.starts_with('"') { quoted(rest) } else { unquoted(rest) };
         let Some(length) = length else {
-            return Err(Error::new(format!("ends where {wanted} should follow: is it whole?")));
+            return Err(Error::new(format!("ends where {wanted} should follow: is it complete?")));
         };
         self.rest = self.last + length;
         Ok(&rest[..length])
@@ -49,7 +49,7 @@ impl<'a> Words<'a> {
         let length = rest.find(['\n', '\r', end]).unwrap_or(rest.len());
         self.rest = self.last + length;
         match rest[..length].trim_ascii_end() {
-            "" => Err(self.refusal(&rest[..end.len_utf8()], &format!("{wanted} should stand here"))),
+            "" => Err(self.refusal(&rest[..end.len_utf8()], &format!("{wanted} expected here"))),
             line => Ok(line),
         }
     }
@@ -65,7 +65,7 @@ impl<'a> Words<'a> {
                 Ok(())
             }
             found if found.eq_ignore_ascii_case(wanted) => Ok(()),
-            found => Err(self.refusal(found, &format!("{wanted} should stand here"))),
+            found => Err(self.refusal(found, &format!("{wanted} expected here"))),
         }
     }
 

@@ -307,7 +307,7 @@ mod tests {
         );
         let hair = from_bytes(text(9, &["1 2", "3 4", "4 5", "5 3", "6 7 8 6", "2 9"]).as_bytes()).unwrap();
         assert_eq!(hair.strands.len(), 1);
-        assert_eq!(hair.attributes.unread, ["2 closed lines, as no hair is"]);
-        assert!(refused(3, &["1 2", "3 2", "3 1"]).contains("closed lines, which no hair is"));
+        assert_eq!(hair.attributes.unread, ["2 closed lines, which cannot be hair"]);
+        assert!(refused(3, &["1 2", "3 2", "3 1"]).contains("closed lines, which cannot be hair"));
     }
 }

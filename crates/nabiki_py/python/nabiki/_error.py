@@ -1,4 +1,4 @@
-"""What is refused."""
+"""Errors."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ import os
 
 
 class Error(ValueError):
-    """A file, a setting or an argument that cannot be used. Its text is one line; what is known of it stands in its attributes.
+    """A file, a setting or an argument that cannot be used. Its text is one line; its parts are attributes, as far as known.
 
-    Where the system refuses a file, what is raised is an `OSError` besides, `FileNotFoundError` of a file that is missing, with `filename` and
-    `errno`; of an attribute that no table has, an `AttributeError` besides.
+    If the system refuses a file, the exception is also an `OSError` with `filename` and `errno`, such as `FileNotFoundError`.
+    For an unknown attribute it is also an `AttributeError`.
     """
 
     file: str | None
-    """The file that is meant."""
+    """The file."""
     line: int | None
-    """Its line, from 1."""
+    """The line in the file, counted from 1."""
     thing: str | None
     """The setting by its key, or the argument by its name."""
     value: str | None
-    """What it was."""
+    """The value that was refused."""
     way_out: str | None
-    """What it may be, or what to do."""
+    """What is allowed, or what to do."""
 
     def __init__(
         self,

@@ -42,13 +42,13 @@ def _interval(place: int, force: Any) -> dict[str, Any]:
 
 
 class Scene(SceneSettings):
-    """Everything that decides a movie: read by `Scene.open`, or put together here.
+    """Everything that decides a movie. Read a file with `Scene.open`, or make a scene here.
 
     `head`: a mesh file, (points, faces), or settings of the head. `hair`: a hair file, (points, offsets), or settings of the
-    hair; without it hair is grown. All else is a table of settings by its name: `motion={"frames": 50}`.
+    hair; without it, hair is grown. All other arguments are tables of settings by name: `motion={"frames": 50}`.
 
-    Each table of a scene file is an attribute, and each of its settings an attribute of that: `scene.motion.frames = 50`. A
-    table that the scene does not have is made by setting one of its keys, and taken out by None: `scene.gust = None`.
+    Each table of a scene file is an attribute, and each setting is an attribute of its table: `scene.motion.frames = 50`.
+    Setting a key adds its table to the scene. None removes a table: `scene.gust = None`.
     """
 
     __slots__ = ()
@@ -79,7 +79,7 @@ class Scene(SceneSettings):
 
     @property
     def forces(self) -> Written[Interval, Force]:
-        """The intervals of `[[force]]`: the last frame of each, and the vector that pulls through it; where it has one, its speed."""
+        """The intervals of `[[force]]`: last frame and vector of each, and its speed if it has one."""
 
         def write(forces: Iterable[Force]) -> None:
             self.forces = forces
@@ -101,7 +101,7 @@ class Scene(SceneSettings):
 
     @property
     def bodies(self) -> Written[dict[str, Any], Body]:
-        """What else hair does not enter, in the free form: a list of settings of bodies, mesh files or (points, faces)."""
+        """Bodies that hair keeps out of in the free form: a list of settings of bodies, mesh files or (points, faces)."""
 
         def write(bodies: Iterable[Body]) -> None:
             self.bodies = bodies
@@ -114,7 +114,7 @@ class Scene(SceneSettings):
 
     @property
     def fields(self) -> Written[Field, Field]:
-        """Fields of Python functions, which are added to those of the settings."""
+        """Fields of Python functions. They add to the fields of the settings."""
 
         def write(fields: Iterable[Field]) -> None:
             self.fields = fields
@@ -126,7 +126,7 @@ class Scene(SceneSettings):
         self._fields = list(fields)
 
     def timeline(self, strands: int | None = None) -> Timeline:
-        """The motion at hand, a sequence of its frames: any frame, some, or all of them at once."""
+        """The motion with random access, a sequence of frames: any frame, some, or all at once."""
         return Timeline(self._timeline(strands))
 
     def solve(
@@ -142,12 +142,12 @@ class Scene(SceneSettings):
         progress: Callable[[int, int], object] | None = None,
         report: Callable[[str], object] | None = None,
     ) -> Solution:
-        """Finds the wind that makes the hair do what is wished for. This scene stays; the answer has one of its own.
+        """Finds the wind that makes the hair do what the wishes ask for. This scene does not change; the answer has its own.
 
-        `wishes`: a wish file, or what is in its `[[wish]]` tables; `nails`, `unknowns`, `space`, `prior` and `search` as
-        there. Without `unknowns` the vectors of all intervals that wishes can feel may change. `strands`: among which locks
-        near a point are looked for. `progress` hears the steps done and the most that may be taken; it may end the search by
-        raising.
+        `wishes`: a wish file, or the contents of its `[[wish]]` tables; `nails`, `unknowns`, `space`, `prior` and `search` as
+        in the file. Without `unknowns`, the vectors of all intervals that affect the wishes may change. `strands`: how many
+        strands to search for locks near a point. `progress` receives the steps done and their maximum; it may raise to end
+        the search.
         """
         if isinstance(wishes, (str, os.PathLike)):
             return self._solve_file(wishes, strands=strands, progress=progress, report=report)

@@ -1,4 +1,4 @@
-"""All frames of a motion at hand."""
+"""A motion with random access to its frames."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ._nabiki import Frame
 
 
 class Timeline(Sequence[Frame]):
-    """A motion at hand: any frame of it, some of them, or all at once. It is a sequence of its frames."""
+    """A motion with random access, a sequence of frames: any frame, some, or all at once."""
 
     __slots__ = ("_motion",)
 
@@ -29,7 +29,7 @@ class Timeline(Sequence[Frame]):
     @overload
     def __getitem__(self, frame: slice) -> list[Frame]: ...
     def __getitem__(self, frame: SupportsIndex | slice) -> Frame | list[Frame]:
-        """Any frame, computed from the one before it that was asked for last; `timeline[-1]` is the last frame, `timeline[10:20]` is a
+        """Any frame, computed from the latest requested one before it. `timeline[-1]` is the last frame, `timeline[10:20]` a
         list of ten."""
         count = len(self)
         if isinstance(frame, slice):
@@ -45,12 +45,12 @@ class Timeline(Sequence[Frame]):
 
     @property
     def offsets(self) -> numpy.typing.NDArray[numpy.uint32]:
-        """Where strands begin in the points of each frame, and at last where they end: (S + 1,) uint32."""
+        """Where strands begin in the points of each frame, with the end as the last value: (S + 1,) uint32."""
         return self._motion.offsets
 
     @property
     def ids(self) -> numpy.typing.NDArray[numpy.uint32]:
-        """The number of each strand in the whole hair of the scene: (S,) uint32."""
+        """The number of each strand among all strands of the scene: (S,) uint32."""
         return self._motion.ids
 
     def __repr__(self) -> str:

@@ -81,7 +81,7 @@ impl Scene {
 impl Scene {
     /// The hair at rest: points (P, 3) float32, head space, cm, and offsets (S + 1,) uint32.
     ///
-    /// `strands`: the first so many, spread evenly over the scalp. `file`: writes it into a hair file, too.
+    /// `strands`: use only this many, spread evenly over the scalp. `file`: also write the hair to this file.
     #[pyo3(signature = (*, strands=None, file=None, report=None))]
     fn groom<'py>(
         &self,
@@ -100,23 +100,23 @@ impl Scene {
         Ok((Hinted::new(arrays::flat(&points)), Hinted::new(crate::frame::offsets(py, &built).into_bound(py))))
     }
 
-    /// The motion, frame by frame, from rest on. `strands`: the first so many of the scene's, spread evenly over the scalp;
-    /// each moves, to the bit, as it does in the whole.
+    /// The motion, frame by frame, starting at rest. `strands`: use only this many, spread evenly over the scalp. Each
+    /// moves exactly as it does among all.
     #[pyo3(signature = (strands=None))]
     fn simulate(&self, py: Python<'_>, strands: Option<Strands>) -> PyResult<Simulation> {
         let built = self.built(py, shown(strands), Ears::default())?;
         Simulation::of(py, built, self.functions())
     }
 
-    /// The motion at hand: any frame, or all of them at once.
+    /// The motion with random access: any frame, or all at once.
     #[pyo3(signature = (strands=None))]
     fn _timeline(&self, py: Python<'_>, strands: Option<Strands>) -> PyResult<Timeline> {
         let built = self.built(py, shown(strands), Ears::default())?;
         Timeline::of(py, built, self.functions())
     }
 
-    /// The force at points (N, 3) in a frame, both in the space of the forces (the world, unless `motion.force_space` says
-    /// otherwise; cm): (N, 3) float32.
+    /// The force at points (N, 3) in a frame: (N, 3) float32. Points (cm) and forces are in the space of the forces,
+    /// the world unless `motion.force_space` is "head".
     #[pyo3(signature = (points, frame))]
     fn force_at<'py>(
         &self,
@@ -132,7 +132,7 @@ impl Scene {
         PyArray1::from_vec(py, forces).reshape([points.len(), 3]).map(Hinted::new)
     }
 
-    /// A frame as light: (height, width, 4) float32, linear Rec. 709, premultiplied.
+    /// Renders a frame as light: (height, width, 4) float32, linear Rec. 709, premultiplied.
     #[pyo3(signature = (frame, *, strands=None, progress=None))]
     fn render<'py>(
         &self,
@@ -146,7 +146,7 @@ impl Scene {
         PyArray1::from_vec(py, frame.rgba.into_flattened()).reshape([height, width, 4]).map(Hinted::new)
     }
 
-    /// A frame as the bytes of a PNG file, as `nabiki render` writes it; into `file`, a .png, too, if one is named.
+    /// Renders a frame as the bytes of a PNG file, like `nabiki render`. With `file`, also writes it.
     #[pyo3(signature = (frame, *, file=None, strands=None, progress=None))]
     fn render_png<'py>(
         &self,
@@ -163,8 +163,8 @@ impl Scene {
         encoded(py, file.as_deref(), || png::bytes(&frame, &tone_mapping))
     }
 
-    /// A frame as the bytes of an OpenEXR file, as `output.exr_frames` writes it: light of 32 bit, depth, shares, directions and
-    /// movement of hair and head; into `file`, an .exr, too, if one is named.
+    /// Renders a frame as the bytes of an OpenEXR file, like `output.exr_frames`: 32-bit light, depth, coverage, and
+    /// the directions and movement of hair and head. With `file`, also writes it.
     #[pyo3(signature = (frame, *, file=None, strands=None, progress=None))]
     fn render_exr<'py>(
         &self,
@@ -181,7 +181,7 @@ impl Scene {
         encoded(py, file.as_deref(), || exr::bytes(&frame))
     }
 
-    /// Draws all frames into `folder`: a movie, a contact sheet and whatever else the settings of `output` ask for.
+    /// Renders all frames into `folder`: a movie, a contact sheet and whatever else the settings of `output` request.
     #[pyo3(signature = (folder="out".into(), *, strands=None, progress=None,
         report=None))]
     fn run(
@@ -197,7 +197,7 @@ impl Scene {
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::run(scene, shown, &folder, &none, watch))
     }
 
-    /// The same with few strands, 300 unless given, small, at once.
+    /// Like `run`, but small and fast, with 300 strands unless you give `strands`.
     #[pyo3(signature = (folder="out".into(), *, strands=None, progress=None,
         report=None))]
     fn preview(
@@ -215,8 +215,8 @@ impl Scene {
 
     /// Writes the moving hair: .usdc, .usda or .abc for other programs, or a motion cache, .nabiki.
     ///
-    /// `strands`: the first so many. `layer`: the prim path of the groom over which samples alone are laid. `head`: whether the
-    /// head goes along where it would be left out: the built-in one, and any in an .abc file.
+    /// `strands`: use only this many. `layer`: the prim path of the groom that a layer of samples covers. `head`:
+    /// whether to add the head if it would be omitted: the built-in one, and any head in an .abc file.
     #[pyo3(signature = (file, *, strands=None, layer=None, head=false, progress=None,
         report=None))]
     #[expect(clippy::too_many_arguments, reason = "named in Python")]
@@ -237,9 +237,11 @@ impl Scene {
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::simulate(scene, shown, &options, watch))
     }
 
-    /// Finds the wind that makes the hair do what is wished for. This scene stays as it is; the answer has one of its own.
+    /// Finds the wind that makes the hair do what the wishes ask for. This scene does not change; the answer has its
+    /// own.
     ///
-    /// `problem`: what a wish file says, as a dictionary. `strands`: among which locks near a point are looked for.
+    /// `problem`: the contents of a wish file, as a dictionary. `strands`: how many strands to search for locks near a
+    /// point.
     #[pyo3(signature = (problem, *, strands=Strands(300), progress=None, report=None))]
     fn _solve<'py>(
         this: &Bound<'py, Self>,

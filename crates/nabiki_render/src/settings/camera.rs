@@ -8,64 +8,65 @@ use nabiki::{SettingError, settings, words};
 pub const NEAR: f32 = 1.0;
 
 words! {
-    /// How space becomes a picture.
+    /// How space is projected onto the picture.
     pub enum Projection = Perspective {
-        /// As an eye sees.
+        /// As an eye or a camera sees.
         Perspective = "perspective",
-        /// All rays parallel, as in a drawing.
+        /// Parallel rays, as in a technical drawing.
         Orthographic = "orthographic",
     }
 }
 
 settings! {
-    /// A camera on an orbit about the hair, or moving between two places of it.
+    /// A camera on an orbit around the hair, still or moving between two places.
     #[derive(Copy)]
     pub struct Camera where moves_from_somewhere {
-        /// How space becomes a picture.
+        /// How space is projected onto the picture.
         pub projection: Projection = Projection::Perspective => "Projection";
-        /// Direction of the camera about the world's vertical: of a head that has not turned 0 is before the face, 90 at
-        /// the character's right hand, 180 behind.
+        /// Direction of the camera around the world's vertical. For a head that has not turned, 0 is in front of the
+        /// face, 90 at the character's right hand and 180 behind.
         pub azimuth: f32 = 40.0 => "Azimuth", unit "degrees", least -3600.0, most 3600.0;
         /// Direction of the camera above the horizon.
         pub elevation: f32 = 5.0 => "Elevation", unit "degrees", least -89.0, most 89.0;
         /// Vertical field of view, for perspective.
         pub fov: f32 = 26.0 => "Field of view", unit "degrees", least 1.0, most 150.0;
-        /// From the target to the eye.
-        pub distance: Option<f32> = None => "Distance", unit "cm", least NEAR as f64, most 1e6, open "frames everything";
+        /// Distance from the target to the eye.
+        pub distance: Option<f32> = None => "Distance", unit "cm", least NEAR as f64, most 1e6, open "fits everything";
         /// Height of the picture in space, for orthographic views.
-        pub height: Option<f32> = None => "Height", unit "cm", least 1e-3, most 1e6, open "frames everything";
-        /// The point looked at, from the head's origin along the world's axes: the camera goes along with the head and does
+        pub height: Option<f32> = None => "Height", unit "cm", least 1e-3, most 1e6, open "fits everything";
+        /// The point to look at, from the head's origin along the world's axes. The camera moves with the head but does
         /// not turn with it.
         pub target: Option<Vec3> = None => "Target", unit "cm", least -1e6, most 1e6, open "the middle";
-        /// How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it. Small numbers
-        /// blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a picture 24 mm high on the
-        /// sensor with this `fov`: 52 mm for 26 degrees.
-        pub f_stop: Option<f32> = None => "f-stop", least 0.1, most 128.0, open "all sharp";
-        /// From the eye to the plane that is sharp, along the axis of view. Left out, that is the side of the head that the camera sees.
+        /// Aperture of the lens, for perspective: focal length over diameter. Small numbers blur more; nabiki refuses
+        /// skin blurred by more than 3 picture heights. The focal length is that for a sensor 24 mm high with this
+        /// `fov`: 52 mm for 26 degrees.
+        pub f_stop: Option<f32> = None => "f-stop", least 0.1, most 128.0, open "everything sharp";
+        /// Distance from the eye to the plane in focus, along the view axis. By default the side of the head that the
+        /// camera sees.
         pub focus_distance: Option<f32> = None => "Focus distance", unit "cm", least NEAR as f64, most 1e6, open "the head";
-        /// Empty border around what is framed, as part of the picture's shorter side.
+        /// Empty border around what is framed, as a share of the picture's shorter side.
         pub margin: f32 = 0.06 => "Margin", least 0.0, most 0.45;
-        /// Where the camera is at the last frame: it glides there from the values above.
-        pub to: Option<CameraKey> = None => "Camera at the last frame", open "stays";
+        /// Camera at the last frame. It moves there from the values above.
+        pub to: Option<CameraKey> = None => "Camera at the last frame", open "unchanged";
     }
 }
 
 settings! {
-    /// The second place of a moving camera; what is left out stays as it was.
+    /// Where a moving camera ends. Values you leave out do not change.
     #[derive(Copy)]
     pub struct CameraKey {
         /// Azimuth at the end.
-        pub azimuth: Option<f32> = None => "Azimuth", unit "degrees", least -3600.0, most 3600.0, open "stays";
+        pub azimuth: Option<f32> = None => "Azimuth", unit "degrees", least -3600.0, most 3600.0, open "unchanged";
         /// Elevation at the end.
-        pub elevation: Option<f32> = None => "Elevation", unit "degrees", least -89.0, most 89.0, open "stays";
-        /// Distance at the end; it needs `distance` at the start.
-        pub distance: Option<f32> = None => "Distance", unit "cm", least NEAR as f64, most 1e6, open "stays";
+        pub elevation: Option<f32> = None => "Elevation", unit "degrees", least -89.0, most 89.0, open "unchanged";
+        /// Distance at the end. It requires `distance` at the start.
+        pub distance: Option<f32> = None => "Distance", unit "cm", least NEAR as f64, most 1e6, open "unchanged";
         /// Field of view at the end.
-        pub fov: Option<f32> = None => "Field of view", unit "degrees", least 1.0, most 150.0, open "stays";
-        /// Target at the end; it needs `target` at the start.
-        pub target: Option<Vec3> = None => "Target", unit "cm", least -1e6, most 1e6, open "stays";
-        /// Distance of what is sharp at the end; it needs `focus_distance` at the start.
-        pub focus_distance: Option<f32> = None => "Focus distance", unit "cm", least NEAR as f64, most 1e6, open "stays";
+        pub fov: Option<f32> = None => "Field of view", unit "degrees", least 1.0, most 150.0, open "unchanged";
+        /// Target at the end. It requires `target` at the start.
+        pub target: Option<Vec3> = None => "Target", unit "cm", least -1e6, most 1e6, open "unchanged";
+        /// Focus distance at the end. It requires `focus_distance` at the start.
+        pub focus_distance: Option<f32> = None => "Focus distance", unit "cm", least NEAR as f64, most 1e6, open "unchanged";
     }
 }
 

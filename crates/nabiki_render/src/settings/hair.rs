@@ -5,9 +5,9 @@ use nabiki::{SettingError, settings, words};
 use serde::{Deserialize, Serialize};
 
 words! {
-    /// How light is reflected by a hair.
+    /// How a hair reflects light.
     pub enum Shading = Fibre {
-        /// A dielectric fibre with pigment inside: surface reflection, transmission, internal reflection.
+        /// A dielectric fibre with pigment inside: surface reflection, transmission and internal reflection.
         Fibre = "fibre",
         /// The cylinder model of Kajiya and Kay (1989), as in the paper.
         KajiyaKay = "kajiya-kay",
@@ -92,7 +92,7 @@ impl Value for HairColour {
         Kind::Table(&Table {
             name: "MelaninColour",
             help: "Concentrations of pigment as in d'Eon et al. (2011), relative to the fibre's radius. Eumelanin 8 is black, 1 brown, \
-                   0.1 blond; pheomelanin reddens.",
+                   0.1 blond. Pheomelanin makes hair redder.",
             settings: &[Setting {
                 must: Some("{ eumelanin = 1.3, pheomelanin = 0.2 }"),
                 ..part("melanin", "Pigment", MELANIN.help, Kind::Table(&MELANIN), PIGMENT)
@@ -100,10 +100,10 @@ impl Value for HairColour {
         }),
         Kind::Table(&Table {
             name: "RgbColour",
-            help: "The colour that a thick mass shows in even light.",
+            help: "The colour of a thick mass of hair in even light.",
             settings: &[Setting {
                 must: Some("[0.3, 0.1, 0.05]"),
-                ..part("rgb", "As it looks", "Red, green and blue.", Kind::Numbers(3), DISPLAYED)
+                ..part("rgb", "Visible colour", "Red, green and blue.", Kind::Numbers(3), DISPLAYED)
             }],
         }),
     ]);
@@ -141,28 +141,29 @@ settings! {
     /// Width, colour and shading of the hair.
     #[derive(Copy)]
     pub struct HairLook {
-        /// Thickness of a hair at its root: its diameter. A real hair of 0.007 cm is made thicker because twenty thousand stand for a
-        /// hundred thousand.
+        /// Diameter of a hair at its root. Real hair has about 0.007 cm; the default is larger because 20,000 strands
+        /// represent 100,000. Lower it if you raise the number of strands.
         pub width: f32 = 0.014 => "Width", unit "cm", least 1e-5, most 5.0;
-        /// Thickness at the tip as a part of that at the root.
+        /// Thickness at the tip as a share of that at the root.
         pub tip: f32 = 0.3 => "Tip", least 0.0, most 1.0;
-        /// Part of the length over which the hair thins to its tip.
+        /// Share of the length over which the hair thins toward its tip.
         pub taper: f32 = 0.4 => "Taper", least 0.0, most 1.0;
-        /// A name, amounts of pigment, or the colour that a thick mass shows in even light.
+        /// A name, amounts of pigment, or the colour of a thick mass of hair in even light.
         pub colour: HairColour = HairColour::Brown => "Colour";
-        /// How much hairs differ in pigment and tilt of their scales.
+        /// How much hairs differ in pigment and in the tilt of their scales.
         pub variation: f32 = 0.25 => "Variation", least 0.0, most 1.0;
-        /// A fibre with pigment inside, or the model of 1989, as in the paper.
+        /// How a hair reflects light: a fibre with pigment, or the paper's model of 1989.
         pub shading: Shading = Shading::Fibre => "Shading";
-        /// Roughness along the hair: the width of the highlight's band.
+        /// Roughness along the hair. Raise it to widen the highlight.
         pub roughness: f32 = 5.0 => "Roughness", unit "degrees", least 2.0, most 40.0;
-        /// Roughness around the hair: small sharpens the light through the fibre.
-        pub azimuthal_roughness: f32 = 0.35 => "Around", least 0.05, most 1.0;
-        /// Tilt of the scales of the cuticle: shifts the white highlight toward the root and the coloured one toward the tip.
-        pub scale_tilt: f32 = 2.5 => "Scales", unit "degrees", least -10.0, most 10.0;
+        /// Roughness around the hair. Lower it to sharpen the light through the fibre.
+        pub azimuthal_roughness: f32 = 0.35 => "Roughness around", least 0.05, most 1.0;
+        /// Tilt of the scales of the cuticle. Raise it to shift the white highlight toward the root and the coloured
+        /// one toward the tip.
+        pub scale_tilt: f32 = 2.5 => "Scale tilt", unit "degrees", least -10.0, most 10.0;
         /// Refractive index of the fibre.
-        pub refraction: f32 = 1.55 => "Refraction", least 1.1, most 2.5;
-        /// Whether a curve is drawn through the nodes rather than straight segments.
+        pub refraction: f32 = 1.55 => "Refractive index", least 1.1, most 2.5;
+        /// Whether to draw a curve through the nodes instead of straight segments.
         pub smooth: bool = true => "Smooth";
     }
 }

@@ -5,12 +5,12 @@ use nabiki::{settings, words};
 words! {
     /// What a lamp's direction is relative to.
     pub enum LightSpace = Camera {
-        /// The camera: azimuth 0 comes from where the camera stands, and a moving camera carries its lamps with it. They stay
-        /// in the world when the head turns.
+        /// The camera. Azimuth 0 comes from the camera, and a moving camera carries its lamps with it. They do not turn
+        /// with the head.
         Camera = "camera",
-        /// The world: azimuth 0 is the world's +x, before the face of a head that has not turned.
+        /// The world. Azimuth 0 is the world's +x, in front of a head that has not turned.
         World = "world",
-        /// The head: azimuth 0 comes from before the face, and the lamps turn with the head.
+        /// The head. Azimuth 0 comes from in front of the face, and the lamps turn with the head.
         Head = "head",
     }
 }
@@ -18,9 +18,9 @@ words! {
 words! {
     /// What the sky is fixed to.
     pub enum SkySpace = World {
-        /// The world: it stays above when the head turns.
+        /// The world: the sky stays above when the head turns.
         World = "world",
-        /// The head: it turns with the head.
+        /// The head: the sky turns with it.
         Head = "head",
     }
 }
@@ -29,18 +29,18 @@ settings! {
     /// A lamp, far away.
     #[derive(Copy)]
     pub struct Light {
-        /// Where the light comes from, about the vertical, counted as the camera's azimuth.
+        /// Direction around the vertical that the light comes from, counted like the camera's azimuth.
         pub azimuth: f32 = 0.0 => "Azimuth", unit "degrees", least -3600.0, most 3600.0;
-        /// Where it comes from, above the horizon.
+        /// Direction above the horizon that the light comes from.
         pub elevation: f32 = 40.0 => "Elevation", unit "degrees", least -90.0, most 90.0;
-        /// Its strength: a white surface facing it is as bright as this.
+        /// Strength: the brightness of a white surface that faces the lamp.
         pub strength: f32 = 1.0 => "Strength", least 0.0, most 1000.0;
-        /// Its colour: amounts of light.
+        /// Colour of the light, as linear amounts.
         pub colour: [f32; 3] = [1.0; 3] => "Colour", unit "linear", least 0.0, most 1.0;
-        /// How far the lamp spreads as seen from the hair: wide lamps throw soft shadows.
+        /// Apparent size of the lamp as seen from the hair. Raise it for softer shadows.
         pub spread: f32 = 4.0 => "Spread", unit "degrees", least 0.0, most 45.0;
-        /// What its direction is relative to.
-        pub space: LightSpace = LightSpace::Camera => "Goes with";
+        /// What the direction is relative to.
+        pub space: LightSpace = LightSpace::Camera => "Fixed to";
     }
 }
 
@@ -65,19 +65,19 @@ impl Light {
 }
 
 settings! {
-    /// The light that comes from all around, dimmed where hair or head hide it.
+    /// Light from all directions, dimmed where hair or head block it.
     #[derive(Copy)]
     pub struct Sky {
-        /// Its strength: an unhidden white surface is as bright as this.
+        /// Strength: the brightness of a white surface that nothing blocks.
         pub strength: f32 = 0.24 => "Strength", least 0.0, most 1000.0;
         /// Colour of the light from straight above.
         pub above: [f32; 3] = [0.93, 0.97, 1.0] => "Above", unit "linear", least 0.0, most 1.0;
         /// Colour of the light from straight below.
         pub below: [f32; 3] = [0.55, 0.5, 0.47] => "Below", unit "linear", least 0.0, most 1.0;
-        /// Whether hair and head hide the sky from what lies within.
+        /// Whether hair and head block the light of the sky.
         pub occlusion: bool = true => "Occlusion";
-        /// Whether it stays above when the head turns, or turns with it.
-        pub space: SkySpace = SkySpace::World => "Goes with";
+        /// Whether the sky stays fixed to the world or turns with the head.
+        pub space: SkySpace = SkySpace::World => "Fixed to";
     }
 }
 

@@ -6,42 +6,42 @@ settings! {
     /// How the head is drawn.
     #[derive(Copy)]
     pub struct HeadLook {
-        /// Whether the head is drawn; it hides hair behind it and throws shadows all the same.
+        /// Whether to draw the head. A hidden head still hides the hair behind it and casts shadows.
         pub visible: bool = true => "Visible";
-        /// Its colour. The default is a neutral skin, dull enough to leave the eye to the hair.
+        /// Colour of the skin. The default is a muted skin tone that does not distract from the hair.
         pub colour: [f32; 3] = [0.56, 0.44, 0.37] => "Colour", unit "sRGB", least 0.0, most 1.0;
-        /// How far light creeps past the terminator, as in skin.
+        /// How far light spreads past the terminator, as in skin.
         pub softness: f32 = 0.2 => "Softness", least 0.0, most 1.0;
-        /// Strength of its sheen.
+        /// Strength of the sheen.
         pub sheen: f32 = 0.25 => "Sheen", least 0.0, most 1.0;
-        /// Hair too short to be drawn: its length for each root, as thick as the hair. It tints the scalp as dense as the roots stand, so
-        /// that partings do not gleam; 0 shows bare skin.
+        /// Length of undrawn short hair at each root, as thick as the hair. It tints the scalp where roots are dense,
+        /// so that partings do not shine. 0 shows bare skin.
         pub stubble: f32 = 2.0 => "Stubble", unit "cm", least 0.0, most 100.0;
-        /// Whether the built-in head has brows, eyes and lips of their colours; other heads have what their mesh has, one colour.
+        /// Whether the built-in head has coloured brows, eyes and lips. Other heads have one colour.
         pub face: bool = true => "Face";
     }
 }
 
 settings! {
-    /// How a body besides the head is drawn.
+    /// How a body other than the head is drawn.
     #[derive(Copy)]
     pub struct BodyLook {
-        /// Whether it is drawn. What is not shown hides nothing and throws no shadow.
+        /// Whether the body is drawn. A hidden body hides nothing and casts no shadow.
         pub shown: bool = true => "Shown";
-        /// Its colour. The default is a grey that is no skin.
+        /// Colour of the body. The default is a grey unlike skin.
         pub colour: [f32; 3] = [0.42, 0.46, 0.50] => "Colour", unit "sRGB", least 0.0, most 1.0;
     }
 }
 
 settings! {
-    /// What is behind it all: a vertical gradient, or nothing.
+    /// The background: a vertical gradient, or none.
     #[derive(Copy)]
     pub struct Background {
-        /// Colour at the top edge, as displayed.
+        /// Displayed colour at the top edge.
         pub top: [f32; 3] = [0.36, 0.38, 0.41] => "Top", unit "sRGB", least 0.0, most 1.0;
-        /// Colour at the bottom edge, as displayed.
+        /// Displayed colour at the bottom edge.
         pub bottom: [f32; 3] = [0.20, 0.21, 0.23] => "Bottom", unit "sRGB", least 0.0, most 1.0;
-        /// Whether it is left out: alpha 0 where there is neither hair nor head.
+        /// Whether to leave out the background. Alpha is then 0 where there is neither hair nor head.
         pub transparent: bool = false => "Transparent";
     }
 }
@@ -51,18 +51,18 @@ words! {
     pub enum ToneCurve = Filmic {
         /// Clipped at white.
         Linear = "linear",
-        /// Straight up to half of white, then a shoulder that rolls highlights off softly, by way of their own hue.
+        /// Linear up to half of white, then a shoulder that rolls off highlights softly and keeps their hue.
         Filmic = "filmic",
     }
 }
 
 settings! {
-    /// The movie's file.
+    /// The movie file.
     #[derive(Copy)]
     pub struct Video {
-        /// 0 is a small file, 1 a large one, near lossless.
+        /// Quality of the movie. 0 gives a small file, 1 a large, nearly lossless one.
         pub quality: f32 = 0.75 => "Quality", least 0.0, most 1.0;
-        /// Frames a second that the movie is played with: fewer than `motion.frame_rate`, which is taken otherwise, is slow motion.
-        pub frame_rate: Option<f64> = None => "Frame rate", unit "a second", least 1.0, most 240.0, open "the motion's";
+        /// Playback rate of the movie. A value below `motion.frame_rate` gives slow motion.
+        pub frame_rate: Option<f64> = None => "Frame rate", unit "per second", least 1.0, most 240.0, open "the motion's";
     }
 }

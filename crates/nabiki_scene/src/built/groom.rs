@@ -86,7 +86,7 @@ impl Wanted {
         let count = self.shown.of(of_scene, grown)?;
         let Some(shard) = self.shard else { return Ok((count, 0..count)) };
         if shard.of() as usize > count {
-            let line = format!("shard {shard}: more shards than there are strands; part them into {count} at the most");
+            let line = format!("shard {shard}: more shards than strands; use at most {count}");
             return Err(Error::refused(line));
         }
         Ok((count, shard.range(count)))

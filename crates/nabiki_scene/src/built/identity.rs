@@ -58,8 +58,8 @@ impl BuiltScene {
     fn settings_identity(&self) -> Result<SceneId> {
         if !self.scene.field.own.is_empty() {
             return Err(Error::refused(
-                "a motion cache cannot tell which field a program gave the scene: export to .usd, .usda, .usdc or .abc, or take \
-                 the field out",
+                "a motion cache cannot record a field from a program: export to .usd, .usda, .usdc or .abc, or remove the \
+                 field",
             ));
         }
         let mut digest = Digest::new();

@@ -74,17 +74,16 @@ impl Model {
         }
         let [x, y, z] = ellipsoid.half_axes.to_array().map(Short);
         // A creature's head may have any size.
-        let seen =
-            format!("the head's half axes are {x} x {y} x {z} cm; if it is a person's, about 9.5 x 11 x 7.8 are right");
+        let seen = format!("the head's half axes are {x} x {y} x {z} cm; a person's head has about 9.5 x 11 x 7.8 cm");
         let HeadSource::Imported(head) = &inputs.source else {
-            return Some(Advice::new(format!("{seen}: mend head.ellipsoid")));
+            return Some(Advice::new(format!("{seen}: correct head.ellipsoid")));
         };
         let seen = match declared.unit.filter(|_| head.unit.is_none()) {
             Some(unit) => format!("{seen}; its file is in {unit}"),
             None => seen,
         };
         if matches!(inputs.ellipsoid, EllipsoidChoice::Given(_)) {
-            let seen = format!("{seen}: mend head.unit or head.ellipsoid");
+            let seen = format!("{seen}: correct head.unit or head.ellipsoid");
             return Some(Advice::new(seen));
         }
         let value = unit_for(size / placement.unit.cm, HALF_AXIS);

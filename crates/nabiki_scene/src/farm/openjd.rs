@@ -107,9 +107,9 @@ impl Plan {
 /// Why the format cannot hold this in the words of a command.
 fn not_held(text: &str) -> Option<&'static str> {
     if text.contains("{{") || text.contains("}}") {
-        Some("holds {{ or }}, between which Open Job Description looks for the name of a parameter")
+        Some("contains {{ or }}, which Open Job Description reads as a parameter")
     } else if text.contains(|c: char| c.is_control() && c != '\n') {
-        Some("holds a control character, which Open Job Description takes nowhere")
+        Some("contains a control character, which Open Job Description does not allow")
     } else {
         None
     }
@@ -127,9 +127,9 @@ fn spaced(set: &str) -> String {
 
 fn about_of(parameter: &str) -> &'static str {
     match parameter {
-        "Scene" => "The scene (TOML). The files that it names are looked for beside it.",
-        "Results" => "Folder for shards, motion, frames and movie; made if it is not there.",
-        _ => "The command nabiki on the machines that work.",
+        "Scene" => "The scene (TOML). Relative paths in it start from its folder.",
+        "Results" => "Folder for shards, motion, frames and movie; created if missing.",
+        _ => "The nabiki command on the worker machines.",
     }
 }
 

@@ -166,7 +166,7 @@ impl fmt::Display for SceneInfo {
         if let Some(Ellipsoid { center, half_axes }) = self.ellipsoid {
             let [x, y, z] = center.to_array().map(Short);
             let [a, b, c] = half_axes.to_array().map(Short);
-            writeln!(f, "ellipsoid: {a} x {b} x {c} cm about ({x}, {y}, {z}), shell {} of it", Short(self.shell))?;
+            writeln!(f, "ellipsoid: {a} x {b} x {c} cm around ({x}, {y}, {z}), shell scale {}", Short(self.shell))?;
         }
         if let Some(problem) = &self.head_problem {
             writeln!(f, "ellipsoid: unknown, {}", OneLine(problem))?;
@@ -224,7 +224,7 @@ impl fmt::Display for SceneInfo {
             (None, Some(problem)) => write!(f, "\nall fields: bound unknown, {}", OneLine(problem))?,
             (None, None) => {}
         }
-        self.unused.iter().try_for_each(|line| write!(f, "\nlook: {}", OneLine(line)))
+        self.unused.iter().try_for_each(|line| write!(f, "\nwarning: {}", OneLine(line)))
     }
 }
 
@@ -240,9 +240,9 @@ impl fmt::Display for FreeInfo {
             labelled::<FreeSettings>("drag", given.drag.clone()),
         ];
         let steps = match resolved.as_ref().map(FreeForm::steps).or(given.substeps) {
-            None => "steps a frame by weight and stiffness".to_owned(),
-            Some(1) => "1 step a frame".to_owned(),
-            Some(steps) => format!("{steps} steps a frame"),
+            None => "steps per frame by weight and stiffness".to_owned(),
+            Some(1) => "1 step per frame".to_owned(),
+            Some(steps) => format!("{steps} steps per frame"),
         };
         write!(f, "free: {}, {steps}\ncontact: {}", told.join(", "), labelled::<Contact>("margin", *margin))?;
         if let Some(NeighbourForces { cohesion, pressure, .. }) = neighbours {
@@ -339,16 +339,16 @@ fn motion_in_words(scene: &Scene, motion: &MotionSource) -> String {
 /// A body: its file, and how it goes and is felt.
 fn body_in_words(scene: &Scene, body: &BodySettings) -> String {
     let way = match &body.motion {
-        _ if body.with_head => "goes with the head".to_owned(),
+        _ if body.with_head => "moves with the head".to_owned(),
         Some(motion) => format!("moved by {}", motion_in_words(scene, motion)),
         None => "stands still".to_owned(),
     };
     let felt = match scene.form {
-        _ if !body.solid => "not felt".to_owned(),
-        FormChoice::Paper => "not felt in the paper's form".to_owned(),
+        _ if !body.solid => "not solid".to_owned(),
+        FormChoice::Paper => "no effect in the paper's form".to_owned(),
         FormChoice::Free => labelled::<Contact>("margin", body.margin),
     };
-    let seen = if body.shown { "" } else { ", not shown" };
+    let seen = if body.shown { "" } else { ", hidden" };
     format!("{}, {way}, {felt}{seen}", named(scene, &body.mesh))
 }
 
@@ -361,7 +361,7 @@ fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
     fn each<T: Settings>(name: &str, list: &[T]) -> impl Iterator<Item = (String, String)> {
         list.iter().enumerate().map(move |(i, entry)| (format!("{name}[{i}]"), said(&T::TABLE, &entry.datum())))
     }
-    let own = (0..own.len()).map(|i| (format!("own[{i}]"), "a field that a program gave".to_owned()));
+    let own = (0..own.len()).map(|i| (format!("own[{i}]"), "a field from a program".to_owned()));
     let winds = [
         one("gust", gust.as_ref()),
         one("body_wind", body_wind.as_ref()),

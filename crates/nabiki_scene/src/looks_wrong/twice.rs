@@ -70,8 +70,8 @@ fn askew(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     }
     let (file, faces) = (mesh.display(), placement.facing);
     let seen = format!(
-        "{table}.motion.facing = \"{facing}\" and {table}.facing = \"{faces}\", both of {file}: it goes and turns another way than it does \
-         there; give both the same, or leave out {table}.motion.facing"
+        "{table}.motion.facing = \"{facing}\" and {table}.facing = \"{faces}\", both for {file}: it moves and turns in other \
+         directions than in the file; give both the same value, or leave out {table}.motion.facing"
     );
     Some(Advice::new(seen))
 }
@@ -95,7 +95,8 @@ fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     }
     let (file, node) = (mesh.display(), &motion.node);
     let seen = format!(
-        "{table}.mesh stands in {file} where {node} has it in the first frame, from which {table}.motion carries it again"
+        "{table}.mesh is already placed in {file} as {node} is in the first frame, and {table}.motion moves it there a \
+         second time"
     );
     match *key {
         Some(key) => Some(Advice { seen, fixes: vec![Fix { key, value: "true".to_owned() }] }),

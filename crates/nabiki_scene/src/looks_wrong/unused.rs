@@ -84,7 +84,9 @@ fn too_late(scene: &Scene) -> Option<String> {
     let j = (0..force.len()).find(late)?;
     let change = if j + 1 == force.len() { "changes" } else { "and what comes after it change" };
     let first = wind.first_felt(j);
-    Some(format!("force[{j}] {change} nothing: felt first in frame {first}, and the last is motion.frames = {last}"))
+    Some(format!(
+        "force[{j}] {change} nothing: it is first felt in frame {first}, but the last frame is motion.frames = {last}"
+    ))
 }
 
 /// Fields whose envelope lets nothing through.
@@ -119,7 +121,7 @@ fn field(settings: &FieldSettings) -> Vec<(bool, &'static str)> {
         (settings.flow.is_some() && no_wind, "[flow] changes nothing: the vectors of all [[force]] are 0"),
         (
             turbulence.is_some_and(|t| t.drift != Turbulence::default().drift && no_wind),
-            "turbulence.drift changes nothing: there is no wind that swirls could go with",
+            "turbulence.drift changes nothing: there is no wind for swirls to drift with",
         ),
     ]
 }
@@ -131,11 +133,12 @@ fn camera(camera: &Camera) -> Vec<(bool, &'static str)> {
     vec![
         (
             camera.focus_distance.is_some() && camera.f_stop.is_none(),
-            "picture.camera.focus_distance changes nothing: all is sharp without picture.camera.f_stop",
+            "picture.camera.focus_distance changes nothing: without picture.camera.f_stop everything is sharp",
         ),
         (
             camera.height.is_some() && perspective,
-            "picture.camera.height changes nothing in perspective: give picture.camera.distance or fov, or projection = \"orthographic\"",
+            "picture.camera.height changes nothing in perspective: give picture.camera.distance or fov, or projection = \
+             \"orthographic\"",
         ),
         (
             camera.fov != Camera::default().fov && !perspective,
@@ -143,7 +146,7 @@ fn camera(camera: &Camera) -> Vec<(bool, &'static str)> {
         ),
         (
             camera.margin != Camera::default().margin && framed,
-            "picture.camera.margin changes nothing: distance or height says how much is seen",
+            "picture.camera.margin changes nothing: distance or height sets how much is visible",
         ),
     ]
 }
@@ -160,21 +163,18 @@ fn picture(scene: &Scene) -> Vec<(bool, &'static str)> {
     vec![
         (
             picture.samples != Picture::default().samples && picture.antialiasing != Antialiasing::Oversample,
-            "picture.samples changes nothing: it is of picture.antialiasing = \"oversample\"",
+            "picture.samples changes nothing: it needs picture.antialiasing = \"oversample\"",
         ),
         (
             papers && (hair.scale_tilt != usual.scale_tilt || hair.refraction != usual.refraction),
-            "picture.hair.scale_tilt and refraction change nothing: they are of picture.hair.shading = \"fibre\"",
+            "picture.hair.scale_tilt and refraction change nothing: they need picture.hair.shading = \"fibre\"",
         ),
         (
             papers && hair.variation != usual.variation,
-            "picture.hair.variation changes nothing: it is of picture.hair.shading = \"fibre\"",
+            "picture.hair.variation changes nothing: it needs picture.hair.shading = \"fibre\"",
         ),
         (hair.tip != usual.tip && hair.taper == 0.0, "picture.hair.tip changes nothing: picture.hair.taper is 0"),
-        (
-            no_skin && unlike,
-            "picture.head.sheen and softness change nothing: no skin is shown, the head's nor a body's",
-        ),
+        (no_skin && unlike, "picture.head.sheen and softness change nothing: neither the head nor a body is visible"),
         (
             !head.visible && head.stubble != skin.stubble,
             "picture.head.stubble changes nothing: picture.head.visible is false",

@@ -13,13 +13,13 @@ use nabiki_render::settings::BodyLook;
 use super::head::check_placement;
 
 settings! {
-    /// Something besides the head that hair does not enter, in the free form.
+    /// An object besides the head that hair keeps out of in the free form.
     pub struct BodySettings where can_be_loaded {
-        /// A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. It must be given.
+        /// The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required.
         pub mesh: PathBuf = PathBuf::new() => "Mesh";
-        /// Groups, objects or nodes of the file to keep; all if empty.
+        /// Groups, objects or nodes of the file to use. Uses all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";
-        /// Unit of the file.
+        /// Length unit of the file.
         pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file says, or cm";
         /// Axis of the file that points up.
         pub up: Option<Axis> = None => "Up", open "what the file says, or +y";
@@ -28,20 +28,20 @@ settings! {
         /// Point of the file that the body's motion carries, in the file's unit.
         pub origin: Option<Vec3> = None => "Origin", open "the file's";
         /// A file that moves the body through the world, as `head.motion` moves the head.
-        pub motion: Option<MotionSource> = None => "Motion of a body", open "it stands still";
-        /// Whether it is worn: it stands in head space and goes with the head.
-        pub with_head: bool = false => "With the head";
-        /// Whether hair keeps out of it; otherwise it is drawn and no more, and may be open.
+        pub motion: Option<MotionSource> = None => "Motion of a body", open "no motion";
+        /// Whether the body is worn: it is placed in head space and moves with the head.
+        pub with_head: bool = false => "Attached to head";
+        /// Whether hair keeps out of the body. If false, the body is only drawn, and its mesh may be open.
         pub solid: bool = true => "Solid";
-        /// How far from its skin nodes are kept.
+        /// Distance that nodes keep from its skin.
         pub margin: f32 => of Contact;
-        /// The part of a push that sliding hair loses of its speed.
+        /// Friction of sliding hair: the share of the push that it loses as speed along the skin.
         pub friction: f32 => of Contact;
-        /// The same for hair that does not slide, at least `friction`.
+        /// Friction of hair that does not slide, at least `friction`.
         pub static_friction: f32 => of Contact;
-        /// Whether it is drawn. What is not shown hides nothing and throws no shadow.
+        /// Whether the body is drawn. A hidden body hides nothing and casts no shadow.
         pub shown: bool => of BodyLook;
-        /// Its colour in pictures. The default is a grey.
+        /// Colour in pictures. The default is a grey.
         pub colour: [f32; 3] => of BodyLook;
     }
 }
@@ -74,7 +74,7 @@ impl BodySettings {
             return refused(&at.key("mesh"), "nothing", "give the file of its mesh");
         }
         if self.with_head && self.motion.is_some() {
-            let remedy = "a body that goes with the head has no motion of its own: remove one of the two";
+            let remedy = "a body that moves with the head cannot have its own motion: remove one of the two";
             return refused(&at.key("with_head"), true, remedy);
         }
         check_placement(&Key::from(at).to_string(), self.unit, self.up, self.facing, self.origin)?;

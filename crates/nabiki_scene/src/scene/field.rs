@@ -140,14 +140,14 @@ impl FieldSettings {
         if let Some(body_wind) = body_wind {
             body_wind.check()?;
             if !head_moves {
-                let remedy = "it comes from the head's way: give head.motion, or remove [body_wind]";
+                let remedy = "it needs a moving head: give head.motion, or remove [body_wind]";
                 return Err(SettingError::new("body_wind", "without motion", remedy));
             }
         }
         if let Some(flow) = flow {
             flow.check()?;
             if force.is_empty() && body_wind.is_none() {
-                let remedy = "it leads [[force]] and [body_wind] round the head: give one, or remove [flow]";
+                let remedy = "it leads [[force]] and [body_wind] around the head: give one, or remove [flow]";
                 return Err(SettingError::new("flow", "without wind", remedy));
             }
         }

@@ -8,18 +8,19 @@ use nabiki::{SettingError, settings};
 use super::quantity::{Quantity, Speed};
 
 settings! {
-    /// One interval of the wind: `vector` drives every frame after the interval before it, up to `through`.
+    /// One interval of the wind. `vector` applies in each frame after the previous interval, up to and including
+    /// `through`.
     #[derive(Copy)]
     pub struct ForceSettings {
-        /// Last frame that feels this vector (k_j of equation (5)).
+        /// Last frame of the interval (k_j of equation (5)).
         pub through: u32 => of Keyframe, must "50";
-        /// Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair). With a `speed`, the direction
-        /// alone.
+        /// Force F_j: direction and strength, without a unit. Only c_i |F| moves hair (section 4.3). With a `speed`,
+        /// only the direction counts.
         pub vector: Vec3 => of Keyframe, must "[-100, 0, 0]";
-        /// How fast the air goes that carries the hair, in the free form: "20 km/h", "5 m/s" or "300 cm/s". The strength is then what
-        /// carries free hair so fast.
+        /// Air speed of the wind, in the free form: "20 km/h", "5 m/s" or "300 cm/s". The strength is then the one that
+        /// carries free hair at this speed.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub speed: Option<Quantity<Speed>> = None => "Speed", open "the length of `vector` is the strength";
+        pub speed: Option<Quantity<Speed>> = None => "Speed", open "strength from `vector`";
     }
 }
 

@@ -9,11 +9,11 @@ use super::read::Refusal;
 use super::tree::{Unwritable, table_of};
 
 words! {
-    /// The equations that hair moves by.
+    /// The equations of the motion.
     pub enum FormChoice = Paper {
-        /// Those of 1993: two angles a segment.
+        /// The equations of 1993: two angles per segment.
         Paper = "paper",
-        /// The free form: hair comes back to rest, stays out of bodies and rides on a head that turns.
+        /// The free form: hair returns to rest, keeps out of bodies and follows a moving head.
         Free = "free",
     }
 }
@@ -21,7 +21,7 @@ words! {
 settings! {
     /// The key of `[motion]` that is not the method's.
     pub(crate) struct FormKey {
-        /// The equations that hair moves by.
+        /// The equations of the motion.
         form: FormChoice = FormChoice::Paper => "Form";
     }
 }

@@ -9,36 +9,40 @@ use nabiki::{Profile, SettingError, settings};
 use super::quantity::{Amount, Length, Measure, Strength, Time, Weight};
 
 settings! {
-    /// How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F, or in one of the world.
+    /// How hair keeps its shape and settles in the free form. Strengths are in F, the unit of the wind, or in world
+    /// units.
     pub struct FreeSettings in "free" where weight_bends_it {
-        /// How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. "4.5 cm" is hair that bends under
-        /// its own `gravity` within that length, as real hair does. One, or a list from root to tip. K of docs/motion-forms.md: EI = 3/8 A
-        /// L K d^2, with d `hair.segment_length`. Hair bends alike however finely it is cut.
+        /// How firmly hair keeps its shape: at 36 times the strength of the wind, hair of 18 cm bends over about 6 cm.
+        /// "4.5 cm" is hair that bends under its own `gravity` over that length, like real hair. One value, or a list
+        /// from root to tip. In docs/motion-forms.md this is K, with EI = 3/8 A L K d^2 and d = `hair.segment_length`.
+        /// The number of segments does not change how hair bends.
         pub stiffness: Profile<Amount<Length>> = in_own_unit(&FreeForm::default().stiffness) => of FreeForm;
-        /// How firmly hair keeps its place on the head, as with hair spray. "0.3 g" pulls with so much of its weight on the earth. One
-        /// number, or a list from root to tip. H: turns segments toward their rest direction on the head. Against a force F, limp hair
-        /// settles along F + H r.
+        /// How firmly hair returns to its groomed place on the head, like hair spray. "0.3 g" pulls with 0.3 times the
+        /// weight of the hair on earth. One value, or a list from root to tip. In docs/motion-forms.md this is H: it
+        /// turns segments toward their rest direction on the head. Against a force F, limp hair settles along F + H r.
         pub hold: Profile<Amount<Strength>> = in_own_unit(&FreeForm::default().hold) => of FreeForm;
-        /// Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air. "0.8 s" are as many
-        /// as pass in it. One number, or a list from root to tip, interpolated in frames: next to a 0 hair hardly swings.
+        /// Number of frames in which a swing falls to 1/e: 7 looks like wet hair, 20 swings over once, 60 keeps waving,
+        /// 0 removes the air. "0.8 s" is a time instead of a number of frames. One value, or a list from root to tip,
+        /// interpolated in frames: hair next to a 0 hardly swings.
         pub settle: Profile<Amount<Time>> = in_own_unit(&FreeForm::default().settle) => of FreeForm;
-        /// How fast moved hair falls. A strength, or "1 g" for that of the earth, 981 cm/s^2 at `motion.frame_rate`; "earth" is the same.
-        /// Hair at rest does not sag.
+        /// How fast moved hair falls. Hair at rest does not sag. Give a strength in F, or "1 g" or "earth" for 981
+        /// cm/s^2 at `motion.frame_rate`.
         pub gravity: Amount<Weight> = FreeForm::default().gravity.into() => of FreeForm;
-        /// How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or a list from root to
-        /// tip. It weighs the head's turn, its acceleration and the pull of the still air.
+        /// How far a moving head leaves the hair behind: 0 moves hair with the head, 1 is realistic, more exaggerates.
+        /// It scales the effect of turns, accelerations and still air. One number, or a list from root to tip.
         pub drag: Profile => of FreeForm;
-        /// Whether `[pseudo_force]` weakens the field before the head, as in the paper's form.
+        /// Whether `[pseudo_force]` weakens the wind in front of the head, as in the paper's form.
         pub pseudo_force: bool => of FreeForm;
-        /// How locks differ, so that they part in the wind.
+        /// Differences between locks, so that they part in the wind.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub variation: Option<LockVariation> => of FreeForm, open "all alike";
-        /// A band that ties hair: strands that pass it at rest are held from the root to the band.
+        pub variation: Option<LockVariation> => of FreeForm, open "locks do not differ";
+        /// A band that ties hair. Strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub tie: Option<Tie> => of FreeForm, open "no band";
-        /// Steps that a frame is divided into. Left open, a scene takes as many as weight and stiffness need, and at least 2.
+        pub tie: Option<Tie> => of FreeForm, open "none";
+        /// Number of steps per frame. By default a scene takes as many as weight and stiffness need, at least 2. Raise
+        /// it if fast contact is missed.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub substeps: Option<u32> => of FreeForm, open "by weight and stiffness";
+        pub substeps: Option<u32> => of FreeForm, open "as many as needed";
     }
 }
 
@@ -91,7 +95,7 @@ impl FreeSettings {
     fn weight_bends_it(&self, at: &Place) -> Result<(), SettingError> {
         match self.stiffness.values().iter().find_map(Amount::quantity) {
             Some(length) if self.gravity.is_zero() => {
-                let remedy = "hair without gravity bends within no length: give gravity, or a number";
+                let remedy = "a bending length needs gravity: give gravity, or a number";
                 refused(&at.key("stiffness"), length, remedy)
             }
             _ => Ok(()),

@@ -35,58 +35,60 @@ pub enum HairSource {
 }
 
 settings! {
-    /// Hair grown from the scalp.
+    /// Hair that grows from the scalp.
     pub struct GrownHair in "hair" where is_not_too_much {
-        /// Number of strands of the whole scene. 19,330 is the paper's Table 1.
+        /// Number of strands. The paper's Table 1 has 19,330.
         pub strands: usize = 19_330 => "Strands", least 1.0, most roots::MOST as f64;
-        /// Most segments of a strand. 18 is the paper's k.
+        /// Largest number of segments of a strand. The paper uses k = 18.
         pub segments: usize = 18 => "Segments", least 1.0, most HairSettings::MOST_SEGMENTS as f64;
-        /// Seed of the roots and of the differences between strands: another number, others of both.
+        /// Random seed of the roots and of the differences between strands.
         pub seed: u64 = 1 => "Seed";
         /// Where hair grows.
         pub hairline: Hairline = Hairline::default() => "Hairline";
-        /// How it lies.
+        /// How the hair is styled.
         pub style: Style = Style::default() => "Style";
     }
 }
 
 settings! {
-    /// Hair read from a file.
+    /// Hair from a file.
     pub struct ImportedHair in "hair" where is_placed {
-        /// A .hair, .tfx, .obj (polylines), USD layer or Alembic archive.
+        /// The hair: a .hair, .tfx, .obj (polylines), USD layer or Alembic archive.
         pub file: PathBuf = PathBuf::new() => "File", must "\"hair.abc\"";
-        /// Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands below; all if empty.
+        /// Curves of a USD layer or Alembic archive to use, by the name or path of their prim or of one above it. Uses
+        /// all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";
-        /// An even choice of so many strands.
+        /// Number of strands to use, spread evenly over the hair.
         pub strands: Option<usize> = None => "Strands", least 1.0, open "all";
-        /// Cuts every strand anew into so many equally long segments.
+        /// Resamples each strand to this number of segments of equal length.
         pub segments: Option<usize> = None => "Segments", least 1.0, most HairSettings::MOST_SEGMENTS as f64, open "as in the file";
-        /// Unit of the file. Left out, it is what the file says, or that of the head's file, or cm.
-        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what files say";
-        /// Axis of the file that points up. Left out, it is what the file says, or that of the head's file, or +y.
-        pub up: Option<Axis> = None => "Up", open "what files say";
-        /// Axis of the file along which the face looks. Left out, it is that of the head's file, or +x.
+        /// Length unit of the file. By default the unit in the file, or else that of the head's file, or else cm.
+        pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file says";
+        /// Axis of the file that points up. By default the axis in the file, or else that of the head's file, or else
+        /// +y.
+        pub up: Option<Axis> = None => "Up", open "what the file says";
+        /// Axis of the file along which the face looks. By default that of the head's file, or else +x.
         pub facing: Option<Axis> = None => "Facing", open "the head's";
         /// Point of the file that becomes the origin of head space, in the file's unit.
         pub origin: Option<Vec3> = None => "Origin", open "the head's";
         /// Which end of a strand is its root.
         pub root: RootEnd = RootEnd::Skin => "Root";
-        /// Neighbouring points of a strand this close are joined. 0 joins those alone that lie in one place, between which a strand has no
-        /// direction to move in.
+        /// Joins neighbouring points of a strand that are at most this far apart. 0 joins only points in the same
+        /// place, between which a strand has no direction.
         pub join_within: f32 = Cleaning::default().join_within => "Join within", unit "cm", least 0.0;
-        /// Strands shorter than this are dropped; 0: only those without any extent.
-        pub drop_shorter_than: f32 = Cleaning::default().drop_shorter_than => "Drop shorter", unit "cm", least 0.0;
+        /// Drops strands shorter than this. 0 drops only strands without any length.
+        pub drop_shorter_than: f32 = Cleaning::default().drop_shorter_than => "Minimum length", unit "cm", least 0.0;
     }
 }
 
 words! {
     /// Which end of an imported strand is its root.
     pub enum RootEnd = Skin {
-        /// The one that lies on the head's skin, where the other does not; otherwise the first.
+        /// The end that lies on the head's skin. If neither or both do, the first point.
         Skin = "skin",
-        /// The first point of the file.
+        /// The first point in the file.
         First = "first",
-        /// The last point of the file.
+        /// The last point in the file.
         Last = "last",
     }
 }
@@ -94,7 +96,7 @@ words! {
 settings! {
     /// The keys of any hair.
     pub(crate) struct AnyHair in "hair" {
-        /// Length of the segments that are grown (d), in which stiffness and the paper's k and i are counted.
+        /// Length d of a grown segment. Stiffness and the paper's k and i are counted in this length.
         segment_length: f32 = 1.0 => "Segment length", unit "cm", above 0.0;
     }
 }
@@ -193,7 +195,11 @@ impl GrownHair {
     fn is_not_too_much(&self, _: &Place) -> Result<(), SettingError> {
         let points = self.strands.checked_mul(self.segments.saturating_add(1));
         if points.is_none_or(|points| points > u32::MAX as usize) {
-            return Err(SettingError::new("hair.strands", self.strands, "more than 2^32 points in all: grow less"));
+            return Err(SettingError::new(
+                "hair.strands",
+                self.strands,
+                "more than 2^32 points in total: reduce strands or segments",
+            ));
         }
         Ok(())
     }

@@ -38,20 +38,20 @@ pub enum HeadSource {
 }
 
 settings! {
-    /// A head out of a file.
+    /// A head from a file.
     pub struct ImportedHead in "head" where is_placed {
-        /// A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive.
+        /// The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive.
         pub mesh: PathBuf = PathBuf::new() => "Mesh", must "\"head.obj\"";
-        /// Groups, objects or nodes of the file to keep; all if empty.
+        /// Groups, objects or nodes of the file to use. Uses all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";
-        /// Unit of the file.
+        /// Length unit of the file.
         pub unit: Option<Unit> = None => "Unit", above 0.0, open "what the file says, or cm";
         /// Axis of the file that points up.
         pub up: Option<Axis> = None => "Up", open "what the file says, or +y";
         /// Axis of the file along which the face looks.
         pub facing: Option<Axis> = None => "Facing", open "+x";
-        /// Point of the file that becomes the origin of head space, in the file's unit. Left out, it is the centre of the fitted ellipsoid, or
-        /// the file's own origin where the ellipsoid is given.
+        /// Point of the file that becomes the origin of head space, in the file's unit. By default the centre of the
+        /// fitted ellipsoid, or the file's own origin if you give an ellipsoid.
         pub origin: Option<Vec3> = None => "Origin", open "the ellipsoid's centre";
     }
 }
@@ -111,19 +111,20 @@ mod fit {
 settings! {
     /// The keys of any head.
     pub(crate) struct AnyHead in "head" {
-        /// E: fitted to the part of the head where hair grows, or given in head space.
+        /// The head ellipsoid E: fitted to the part of the head where hair grows, or given in head space.
         ellipsoid: EllipsoidChoice = EllipsoidChoice::Fit => "Ellipsoid", unit "cm";
-        /// C, in which the pseudo-force may hold, is E scaled by this.
+        /// Scale of the shell C around the ellipsoid E. The pseudo-force acts only within this shell; a larger value
+        /// reaches farther from the head.
         shell: f32 = 1.25 => "Shell", above 1.0;
         /// A file that moves the head.
-        motion: Option<MotionSource> = None => "Motion of the head", open "it stands still";
+        motion: Option<MotionSource> = None => "Motion of the head", open "no motion";
     }
 }
 
 settings! {
-    /// The project's own bust.
+    /// The built-in bust.
     pub(crate) struct BuiltinHead {
-        /// The name of the built-in head, "builtin:bust".
+        /// Name of the built-in head, "builtin:bust".
         mesh: String = HeadSettings::BUILTIN.to_owned() => "Mesh";
     }
 }

@@ -5,23 +5,24 @@ use nabiki::setting::{Place, refused};
 use nabiki::{SettingError, settings};
 
 settings! {
-    /// What a run writes. Where it goes is the command line's affair.
+    /// What a run writes. The command line sets the folder.
     pub struct Output in "output" where has_bits {
-        /// Whether a movie is written.
+        /// Whether to write a movie.
         pub movie: bool = true => "Movie";
-        /// Whether every frame is written as a PNG.
+        /// Whether to write each frame as a PNG.
         pub png_frames: bool = false => "PNG frames";
-        /// Bits of each channel of those PNGs, 8 or 16.
+        /// Bits per channel of the PNG frames: 8 or 16.
         pub png_bits: u32 = 8 => "PNG bits", least 8.0, most 16.0;
-        /// Whether every frame is written as an OpenEXR file with depth, hair direction and motion.
+        /// Whether to write each frame as an OpenEXR file with depth, hair direction and motion.
         pub exr_frames: bool = false => "OpenEXR frames";
-        /// Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG: the paper's Figure 10.
-        pub field: bool = false => "Drawn field";
-        /// Frames of the contact sheet. Left out, there are four, evenly from frame 0 on, as the paper's Figure 6 has them.
-        pub sheet: Option<Vec<u32>> = None => "Sheet", unit "frames", open "four, evenly";
-        /// Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures keep the numbers of
-        /// the scene. Left out, it is that of the head's motion, where that is from USD or Alembic and plays at its own speed, else that of the
-        /// hair's USD layer (`startTimeCode`) or Alembic archive, else 0.
+        /// Whether to plot the force, projected on the yz and zx planes, as SVG and PNG. This is the paper's Figure 10.
+        pub field: bool = false => "Field plot";
+        /// Frames of the contact sheet. By default four frames at equal distances from frame 0 on, as in the paper's
+        /// Figure 6.
+        pub sheet: Option<Vec<u32>> = None => "Contact sheet", unit "frames", open "4, evenly spaced";
+        /// Frame number of the shot for frame 0. Exports of moving hair (USD, Alembic) count from it; pictures keep the
+        /// scene's numbers. By default it comes from the head's motion, if that is from USD or Alembic and plays at its
+        /// own speed. Otherwise it comes from the hair's USD layer (`startTimeCode`) or Alembic archive, or is 0.
         pub first_frame: Option<i32> = None => "First frame", least -FARTHEST, most FARTHEST,
             open "as in the files";
     }

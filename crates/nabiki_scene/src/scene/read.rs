@@ -315,8 +315,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
         if self.0.is_table() {
-            let wanted =
-                "a list, even of one, in brackets; in a file each of a list of tables begins with two, [[...]]";
+            let wanted = "a list in brackets, even of one; in a file, each table of a list begins with two, [[...]]";
             return Err(Refusal::kind(words(Unexpected::Map), wanted));
         }
         self.deserialize_any(visitor)

@@ -62,7 +62,7 @@ impl Origins {
         let line = |(text, gone): &(String, Vec<String>)| {
             let keys = gone.join(", ");
             format!(
-                "--set {text} takes the place of the whole table, and with it of {keys}; give each key by itself to keep the others"
+                "--set {text} replaces the whole table, including {keys}; set each key separately to keep the others"
             )
         };
         self.replaced.iter().map(line)
@@ -121,7 +121,7 @@ pub(crate) fn parse(
         if message == "duplicate key"
             && let Some(key) = e.span().and_then(|span| text.get(span))
         {
-            message = format!("duplicate key {key}: it is given above already, give it once");
+            message = format!("duplicate key {key}: already given above; give it once");
         }
         let problem = Box::new(Problem::NotToml(message));
         SceneError { file: file.to_owned(), line, set: None, key: Key::default(), problem }
@@ -192,10 +192,10 @@ fn set(table: &mut Table, path: &str, text: &str, defaults: &impl Fn() -> Table)
     let value: Value = match text.parse() {
         Ok(value) => value,
         Err(_) if text.parse::<i128>().is_ok() => {
-            return Err(format!("{text} is beyond the whole numbers of TOML, {} to {}", i64::MIN, i64::MAX));
+            return Err(format!("{text} is outside the whole numbers of TOML, {} to {}", i64::MIN, i64::MAX));
         }
         Err(_) if begins_as_toml(text) => {
-            return Err(format!("{text} is no value of TOML: write 0.5 and not .5, close each bracket and quote"));
+            return Err(format!("{text} is not a TOML value: write 0.5, not .5, and close each bracket and quote"));
         }
         Err(_) => Value::String(text.to_owned()),
     };
@@ -349,8 +349,7 @@ mod tests {
         };
         let gone = |override_: &str, keys: &str| {
             format!(
-                "--set {override_} takes the place of the whole table, and with it of {keys}; give each key by itself to \
-                 keep the others"
+                "--set {override_} replaces the whole table, including {keys}; set each key separately to keep the others"
             )
         };
         assert_eq!(

@@ -40,7 +40,7 @@ impl WishFile {
                 && places.len() != nodes.len()
             {
                 let remedy = format!(
-                    "the lock has {} nodes, roots not counted, since they do not move: give each a place, or their mean one",
+                    "the lock has {} nodes, not counting roots, which do not move: give a place for each, or mean_at",
                     nodes.len()
                 );
                 return Err(finder.refused(&format!("{name}.places"), format!("{} places", places.len()), remedy));
@@ -80,7 +80,7 @@ impl Finder<'_> {
         if (1..=frames).contains(&frame) {
             return Ok(());
         }
-        Err(self.refused(key, frame.to_string(), format!("the scene has frames 1 to {frames} in which hair moves")))
+        Err(self.refused(key, frame.to_string(), format!("hair moves in frames 1 to {frames} of the scene")))
     }
 
     /// The nodes of a lock, strand by strand. `name`: what the wish is called; `frame`: what it is about.
@@ -103,14 +103,14 @@ impl Finder<'_> {
                         .filter(|report| report.strands_in_file > kept)
                     {
                         let of_file = report.strands_in_file;
-                        remedy += &format!(", those of its file's {of_file} that it keeps: count these alone");
+                        remedy += &format!(", the ones it keeps of {of_file} in its file: count only these");
                     }
                     return Err(self.refused(&format!("{name}.strands[{k}]"), id.to_string(), remedy));
                 };
                 nodes.extend(part(s, along));
             }
             if nodes.is_empty() {
-                let remedy = "no node lies there that moves: take a longer part of the strands";
+                let remedy = "no moving node is there: use a longer part of the strands";
                 return Err(self.refused(&format!("{name}.along"), format!("{along:?}"), remedy));
             }
             return Ok(nodes);
@@ -133,7 +133,7 @@ impl Finder<'_> {
         if nodes.is_empty() {
             let [x, y, z] = near.point.to_array().map(Short);
             let remedy = format!(
-                "no hair is so near to ({x}, {y}, {z}) in frame {looked_at}: give a larger radius, or another point"
+                "no hair is that close to ({x}, {y}, {z}) in frame {looked_at}: give a larger radius or another point"
             );
             return Err(self.refused(&format!("{name}.near.radius"), near.radius.to_string(), remedy));
         }

@@ -77,7 +77,7 @@ impl fmt::Display for Solved {
                 };
                 write!(
                     f,
-                    "\n  far     {} {far}; no nearer motion was found in {} steps",
+                    "\n  far     {} {far}; found no closer motion in {} steps",
                     OneLine(name),
                     report.iterations
                 )?;

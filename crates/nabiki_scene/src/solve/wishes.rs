@@ -246,7 +246,7 @@ impl Wishes {
     /// Names the first such value.
     pub fn check(&self) -> Result<(), SettingError> {
         if self.wish.is_empty() && self.nail.is_empty() {
-            let remedy = "there is nothing to solve for: give a [[wish]] with frame, strands or near, and where to";
+            let remedy = "nothing to solve for: give a [[wish]] with frame, strands or near, and a goal";
             return Err(SettingError::new("wish", "none", remedy));
         }
         self.unknowns.as_ref().map_or(Ok(()), Unknowns::check)?;
@@ -261,7 +261,7 @@ impl Wishes {
             nail.lock().check(&name)?;
             check_weight(&name, nail.weight)?;
             if nail.frames.is_empty() {
-                let remedy = "name the frames in which it should stay, frames = [20, 40]";
+                let remedy = "name the frames to keep, frames = [20, 40]";
                 return Err(SettingError::new(format!("{name}.frames"), "[]", remedy));
             }
         }
@@ -305,7 +305,7 @@ impl Unknowns {
         }
         for (key, list) in [("vectors", vectors), ("borders", borders)] {
             if let Some(i) = (0..list.len()).find(|&i| list[..i].contains(&list[i])) {
-                let remedy = "is named twice: once will do";
+                let remedy = "is named twice: name it once";
                 return Err(SettingError::new(format!("unknowns.{key}[{i}]"), list[i], remedy));
             }
         }
@@ -344,7 +344,7 @@ impl Unknowns {
                 felt.push(unknown);
                 continue;
             }
-            let why = format!("first felt in frame {first}, after the last that a wish or nail is about, {last}");
+            let why = format!("first felt in frame {first}, after the last frame of a wish or nail, {last}");
             let named = self.vectors.iter().position(|&j| unknown == Unknown::Vector(j));
             let (key, value) = match (named, self.interval) {
                 (Some(i), _) => (format!("unknowns.vectors[{i}]"), self.vectors[i].to_string()),
@@ -358,10 +358,10 @@ impl Unknowns {
         if felt.is_empty()
             && let Some((key, value, why)) = out_of_reach.first()
         {
-            let remedy = format!("{why}: free what blows before it, or wish for a later frame");
+            let remedy = format!("{why}: let an earlier wind change, or wish for a later frame");
             return Err(SettingError::new(key.as_str(), value, remedy));
         }
-        let line = |(key, value, why): (String, String, String)| format!("{key} = {value} stays as it is: {why}");
+        let line = |(key, value, why): (String, String, String)| format!("{key} = {value} does not change: {why}");
         Ok((felt, out_of_reach.into_iter().map(line).collect()))
     }
 
@@ -374,7 +374,7 @@ impl Unknowns {
         let (force, new) = match *interval {
             None => (force.to_vec(), None),
             Some(Interval { through, .. }) if through > frames => {
-                let remedy = format!("the scene has frames 1 to {frames} in which hair moves");
+                let remedy = format!("hair moves in frames 1 to {frames} of the scene");
                 return Err(SettingError::new("unknowns.interval.through", through, remedy));
             }
             Some(Interval { from, through }) => {
@@ -400,7 +400,7 @@ impl Unknowns {
         for (i, &j) in borders.iter().enumerate() {
             there("borders", i, j)?;
             if j + 1 == force.len() {
-                let remedy = "the last interval holds for good and meets no other: name one before it";
+                let remedy = "the last interval has no border after it: name an earlier one";
                 return Err(SettingError::new(format!("unknowns.borders[{i}]"), j, remedy));
             }
             unknowns.push(Unknown::Border(j));
@@ -426,7 +426,7 @@ impl WishEntry {
         ];
         let mut given = goals.into_iter().filter_map(|(key, goal)| Some((key, goal?)));
         let (first, second) = (given.next(), given.next());
-        let remedy = "say where to by one of moved, mean_moved, mean_at and places";
+        let remedy = "give the goal as one of moved, mean_moved, mean_at and places";
         let Some((key, goal)) = first else { return Err(SettingError::new(name, "a wish to no place", remedy)) };
         if let Some((other, _)) = second {
             return Err(SettingError::new(format!("{name}.{other}"), format!("beside {key}"), remedy));
@@ -458,11 +458,11 @@ impl Lock<'_> {
         match (strands.is_empty(), near) {
             (false, None) => {}
             (true, None) => {
-                let remedy = "say which hair is meant: strands = [0, 1], or near = { point = [x, y, z], radius = 2 }";
+                let remedy = "name the hair: strands = [0, 1], or near = { point = [x, y, z], radius = 2 }";
                 return Err(SettingError::new(name, "no lock", remedy));
             }
             (false, Some(_)) => {
-                let remedy = "name strands, or a point that they are near: one of the two";
+                let remedy = "name either strands or a point near them";
                 return Err(SettingError::new(format!("{name}.near"), "beside strands", remedy));
             }
             (true, Some(Near { point, radius, .. })) => {

@@ -78,8 +78,9 @@ fn check_output(options: &ConvertOptions) -> Result<()> {
     place::not_inputs(&[output], std::slice::from_ref(&options.input))?;
     if is_cache(output) {
         return Err(Error::refused(format!(
-            "{}: a motion cache holds what a scene has moved; to move hair of a file, name it in a scene as hair.file and \
-             run nabiki simulate; to hand on motion that it has already, write .usd, .usda, .usdc or .abc",
+            "{}: a motion cache contains the simulated hair of a scene; to simulate hair of a file, name it in a scene as \
+             hair.file and run nabiki simulate; to convert motion that the file already has, write .usd, .usda, .usdc or \
+             .abc",
             output.display()
         )));
     }
@@ -166,7 +167,7 @@ impl Input {
         match self {
             Self::Cache(cache) => {
                 let Some(frame) = options.frame else {
-                    let line = "a motion cache holds many frames; say which with --frame N, or write .usd, .usda, .usdc or .abc";
+                    let line = "a motion cache has many frames; choose one with --frame N, or write .usd, .usda, .usdc or .abc";
                     return Err(Error::refused(format!("{}: {line}", input.display())));
                 };
                 check_frame(input, frame, cache.frame_count())?;
@@ -265,8 +266,8 @@ fn lost_pose(pose: &Pose) -> String {
     let [x, y, z] = pose.position_cm.to_array();
     let (axis, angle) = pose.rotation.to_axis_angle();
     format!(
-        "the head's pose: the points are those of a head that stands still at the origin; in this frame it is at ({x}, {y}, \
-         {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3}), as .usda, .usdc and .abc have it",
+        "the head's pose: the points are those of a head at the origin without rotation. In this frame it is at ({x}, {y}, \
+         {z}) cm, turned by {:.2} degrees about ({:.3}, {:.3}, {:.3}). Use .usda, .usdc or .abc to keep the pose",
         angle.to_degrees(),
         axis.x,
         axis.y,
@@ -296,7 +297,7 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
         && (given.cm - stated.cm).abs() > 1e-6 * stated.cm
     {
         return Err(Error::refused(format!(
-            "{}: --unit {}: the file itself says {stated}; leave --unit out",
+            "{}: --unit {}: the file already has {stated}; leave out --unit",
             options.input.display(),
             // As it is typed: a name, or a number alone.
             given.to_string().trim_end_matches(" cm"),
@@ -306,7 +307,7 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
     let stated_up = in_file.up.filter(|_| exchange::is_usd(&options.input));
     if let Some(up) = stated_up.filter(|&up| options.z_up && up != Axis::PlusZ) {
         let input = options.input.display();
-        return Err(Error::refused(format!("{input}: --z-up: the file itself says {up}; leave --z-up out")));
+        return Err(Error::refused(format!("{input}: --z-up: the file already has {up}; leave out --z-up")));
     }
     let said = DeclaredSpace {
         unit: options.unit.or(in_file.unit),
@@ -314,7 +315,7 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
     };
     if said.unit.is_none() && exchange::is_usd(&options.output) {
         return Err(Error::refused(format!(
-            "{}: its unit is not in the file and {} must name one: give --unit m, say",
+            "{}: its unit is not in the file, but {} must name one: give --unit, for example --unit m",
             options.input.display(),
             options.output.display()
         )));
@@ -408,8 +409,7 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
         if strands.starts() != hair.strands.starts() {
             let [now, first] =
                 [&strands, &hair.strands].map(|s| format!("{} points of {} strands", s.points().len(), s.len()));
-            let way_out =
-                "moving hair keeps its strands: take one frame with --frame N, or export those that all frames have";
+            let way_out = "the number of strands must not change: take one frame with --frame N, or export only strands that all frames have";
             let input = options.input.display();
             return Err(Error::refused(format!("{input}: frame {frame} has {now}, frame 0 {first}: {way_out}")));
         }

@@ -85,8 +85,7 @@ fn check_movie(scene: &Scene) -> Result<()> {
     if scene.picture.background.transparent {
         let file = scene.file().display();
         return Err(Error::refused(format!(
-            "{file}: picture.background.transparent = true: stills with alpha make no movie; give output.movie = false, or \
-             false"
+            "{file}: picture.background.transparent = true: a movie cannot have alpha; give output.movie = false, or false"
         )));
     }
     outputs::check_movie(scene, &scene.picture)
@@ -114,7 +113,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     )?;
     let shards = options.shards.unwrap_or(strands.div_ceil(STRANDS_A_SHARD) as u32);
     if shards as usize > strands {
-        let line = format!("--shards {shards}: more than there are strands; give {strands} at the most");
+        let line = format!("--shards {shards}: more shards than strands; use at most {strands}");
         return Err(Error::refused(line));
     }
     if strands > TRIED {
@@ -140,7 +139,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
 fn from_root(path: &Path) -> Result<PathBuf> {
     let path = std::path::absolute(path).map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
     if path.to_str().is_none() {
-        return Err(Error::refused(format!("{}: is no text (UTF-8), and a job is; rename it", path.display())));
+        return Err(Error::refused(format!("{}: is not UTF-8 text, as a job must be; rename it", path.display())));
     }
     Ok(path)
 }

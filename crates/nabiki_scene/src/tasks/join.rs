@@ -41,7 +41,7 @@ pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<(
                 Some(_) => {
                     let file = reader.path().display();
                     return Err(Error::refused(format!(
-                        "{file}: frame {n}: the head is elsewhere than in the first shard"
+                        "{file}: frame {n}: the head is not where it is in the first shard"
                     )));
                 }
             }
@@ -67,7 +67,7 @@ impl OpenPiece {
     fn open(file: &Path) -> Result<Self> {
         let reader = Reader::open(file)?;
         let Some(piece) = reader.header().piece.clone() else {
-            let line = "a whole motion and no shard of one; nabiki simulate --shard K/N writes shards";
+            let line = "a full motion, not a shard; nabiki simulate --shard K/N writes shards";
             return Err(Error::refused(format!("{}: {line}", file.display())));
         };
         Ok(Self { reader, piece })
@@ -83,7 +83,7 @@ impl OpenPiece {
         } else if mine.settings != other.settings || mine.groom != other.groom || mine.strands != other.strands {
             Some("was made from another scene, with other settings, or by another version".to_owned())
         } else if mine.reference != other.reference {
-            Some("was stepped by the other of the twins (--stepper)".to_owned())
+            Some("was made with the other --stepper".to_owned())
         } else if frames != others_frames || header.frame_rate != others.frame_rate {
             let [mine, others] = [(frames, header), (others_frames, others)]
                 .map(|(frames, header)| format!("{frames} frames at {} a second", header.frame_rate));
@@ -103,8 +103,8 @@ fn sorted(files: &[PathBuf]) -> Result<Vec<OpenPiece>> {
     let mut pieces = there.into_iter().map(|file| OpenPiece::open(file)).collect::<Result<Vec<_>>>()?;
     let Some(first) = pieces.first() else {
         let line = match missing.first() {
-            Some(file) => format!("{}: there is no such file, nor any other of the shards", file.display()),
-            None => "no shards are given: name all files that nabiki simulate --shard has written".to_owned(),
+            Some(file) => format!("{}: there is no such file and no other shard", file.display()),
+            None => "no shards given: name all files that nabiki simulate --shard wrote".to_owned(),
         };
         return Err(Error::refused(line));
     };
@@ -130,7 +130,7 @@ fn sorted(files: &[PathBuf]) -> Result<Vec<OpenPiece>> {
         Some(shard) => Err(missing_shard(&pieces[0], shard, &missing)),
         None => match missing.first() {
             Some(file) => Err(Error::refused(format!(
-                "{}: there is no such file, and all {} shards are given without it; leave it out",
+                "{}: there is no such file, and all {} shards are there without it; leave it out",
                 file.display(),
                 pieces.len()
             ))),
@@ -176,7 +176,7 @@ fn whole(pieces: &[OpenPiece]) -> Result<Header> {
             header.starts.push(start);
         }
         if part.origin != header.origin || !header.attributes.append(part.attributes.clone()) {
-            return Err(refuse("carries other attributes than the shards before it"));
+            return Err(refuse("has other attributes than the shards before it"));
         }
         sum = StrandSum::and(sum, piece.sum);
     }

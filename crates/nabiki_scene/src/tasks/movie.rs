@@ -93,7 +93,7 @@ fn numbered(given: &[PathBuf]) -> Result<Vec<(u32, PathBuf)>> {
     for (_, b) in &frames {
         let a = *of_folder.entry(b.parent()).or_insert(b);
         if film(a) != film(b) {
-            let line = "have different names before their numbers, as pictures of two films have; name those of one";
+            let line = "have different names before their numbers, like pictures of two movies; name those of one";
             return Err(Error::refused(format!("{} and {}: {line}", a.display(), b.display())));
         }
     }
@@ -119,7 +119,7 @@ fn film(file: &Path) -> Option<&str> {
 /// Refuses a film in which frames are missing.
 fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     let Some((first, _)) = frames.first() else {
-        return Err(Error::refused("no frames are given: name numbered PNG files, or a folder of them"));
+        return Err(Error::refused("no frames given: name numbered PNG files, or a folder of them"));
     };
     let mut next = if options.scene.is_some() { 0 } else { *first };
     let missing = |from: u32, through: u32| {
@@ -127,7 +127,7 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
             if from == through { format!("frame {from} is") } else { format!("frames {from} to {through} are") };
         let of = frames[0].1.parent().unwrap_or(Path::new("")).display();
         let command = drawing(&frames[0].1, (from, through), options);
-        Err(Error::refused(format!("{of}: {which} missing; draw with {command}")))
+        Err(Error::refused(format!("{of}: {which} missing; render with {command}")))
     };
     for &(n, _) in frames {
         if n > next {
@@ -139,7 +139,7 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     let last = scene.motion.frames;
     match frames.iter().find(|(n, _)| *n > last).zip(frames.last()) {
         Some(((_, file), (end, _))) => Err(Error::refused(format!(
-            "{}: the last frame of {} is motion.frames = {last}; take out what an earlier run has left beyond it, or say --set \
+            "{}: the last frame of {} is motion.frames = {last}; remove the later frames of an earlier run, or give --set \
              motion.frames={end}",
             file.display(),
             scene.file().display()
@@ -182,7 +182,7 @@ fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
     let size = size_of(&files[0])?;
     if !Movie::takes(size) {
         return Err(Error::refused(format!(
-            "{}: {} x {} pixels; {}: draw with another picture.size",
+            "{}: {} x {} pixels; {}: render with another picture.size",
             files[0].display(),
             size[0],
             size[1],
@@ -193,7 +193,7 @@ fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
         let other = size_of(file)?;
         if other != size {
             return Err(Error::refused(format!(
-                "{}: {} x {} pixels and {} has {} x {}; draw all frames in one size",
+                "{}: {} x {} pixels and {} has {} x {}; render all frames at one size",
                 file.display(),
                 other[0],
                 other[1],

@@ -109,7 +109,7 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
         String::new()
     };
     let value = format!("{{ file = {file}, node = {of_node}{unit}, facing = \"{facing}\", bind_at_start = true }}");
-    let seen = format!("{node} moves the head in {named}, which stands still here");
+    let seen = format!("{node} moves the head in {named}, but the head does not move here");
     Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
 }
 
@@ -131,7 +131,7 @@ fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Resu
         0 | 1 => String::new(),
         count => format!(" in {count} clips ({named_clips}{more})"),
     };
-    let seen = format!("{node} moves the head in {named}{others}, which stands still here");
+    let seen = format!("{node} moves the head in {named}{others}, but the head does not move here");
     Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
 }
 

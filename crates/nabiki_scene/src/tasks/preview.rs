@@ -66,7 +66,8 @@ fn whole_is_refused(built: &BuiltScene) -> Result<Option<Advice>> {
     }
     let whole = built.changed_to(built.scene.clone(), Shown::All)?;
     let Err(refused) = check_field(whole.strands(), &whole.dynamics, &*whole.forces.field) else { return Ok(None) };
-    let seen = format!("{shown} strands of {all} are moved; all of them would be refused: {}", whole.refusal(refused));
+    let seen =
+        format!("simulates {shown} of {all} strands; nabiki would refuse all of them: {}", whole.refusal(refused));
     Ok(Some(Advice::new(seen)))
 }
 

@@ -58,9 +58,9 @@ impl Pictures {
             Self::One(frame) | Self::Turntable { frame, .. } if frame > last => {
                 Err(Error::refused(format!("--frame {frame}: {reaches}")))
             }
-            Self::Run(from, through) if from > through => Err(Error::refused(format!(
-                "--frames {from}..{through}: ends before it begins; write the earlier first"
-            ))),
+            Self::Run(from, through) if from > through => {
+                Err(Error::refused(format!("--frames {from}..{through}: write the earlier frame first")))
+            }
             Self::Run(from, through) if through > last => {
                 Err(Error::refused(format!("--frames {from}..{through}: {reaches}")))
             }
@@ -152,7 +152,7 @@ fn turntable(
     let as_stills = output.png_frames || output.exr_frames;
     if !(output.movie || as_stills) {
         let line =
-            "a turntable is a movie, or stills, and output.movie is off: give output.png_frames = true or exr_frames";
+            "a turntable is a movie or stills, and output.movie is off: give output.png_frames = true or exr_frames";
         return Err(Error::refused(format!("{}: {line}", scene.file().display())));
     }
     if picture.camera.to.is_some() {

@@ -61,8 +61,8 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
         && !(cache.is_some() && exports.files.is_empty())
     {
         return Err(Error::refused(format!(
-            "--shard {shard}: a shard goes into a motion cache (.nabiki) alone; export what nabiki join makes of all of them, \
-             with nabiki convert"
+            "--shard {shard}: a shard can only be written to a motion cache (.nabiki); to export, join all shards with \
+             nabiki join and use nabiki convert"
         )));
     }
     let mut folders = Folders::default();

@@ -41,7 +41,7 @@ impl<R: Read + Seek> CrateReader<R> {
         let mut reader = Self { from, size, version, tokens: Vec::new(), strings: Vec::new(), prim_of_path, budget };
         let header = reader.bytes(0, HEADER as u64)?;
         if header[..8] != *MAGIC {
-            return Err(Problem::new("is no binary USD layer"));
+            return Err(Problem::new("is not a binary USD layer"));
         }
         reader.version = [header[8], header[9], header[10]];
         if reader.version[0] != 0 || reader.version < [0, 4, 0] {
@@ -126,7 +126,7 @@ impl<R: Read + Seek> CrateReader<R> {
                 }
                 specs::PRIM if !node.is_property => {
                     if node.depth as usize > DEEPEST {
-                        return Err(Problem(format!("has prims nested deeper than {DEEPEST}, as no scene has them")));
+                        return Err(Problem(format!("has prims nested deeper than {DEEPEST}, deeper than any scene")));
                     }
                     keep_prim(&reader.budget, &name)?;
                     let above = node.parent.map(|p| p as usize).filter(|&p| nodes[p].parent.is_some());

@@ -72,7 +72,7 @@ pub fn parse(from: &mut dyn Source, length: u64, budget: &Budget) -> Result<Pars
         }
     }
     if let Some(&prim) = open.last() {
-        return Err(Problem(format!("ends within prim {}: is it whole?", prims[prim].name)));
+        return Err(Problem(format!("ends within prim {}: is it complete?", prims[prim].name)));
     }
     Ok((prims, metadata))
 }
@@ -283,7 +283,7 @@ fn samples(text: &mut Scanner<'_>) -> Result<Vec<(f64, Handle)>, Problem> {
                 let word = text.word()?;
                 let number = word.trim_end_matches(':');
                 let Some(time) = f64::from_str(number).ok().filter(|t| t.is_finite()) else {
-                    return Err(text.problem(&format!("\"{word:.40}\" is no time code")));
+                    return Err(text.problem(&format!("\"{word:.40}\" is not a time code")));
                 };
                 if number.len() == word.len() {
                     text.expect(b':')?;

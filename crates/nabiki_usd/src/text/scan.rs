@@ -153,7 +153,7 @@ impl<'a> Scanner<'a> {
             self.pass();
             Ok(())
         } else {
-            Err(self.problem(&format!("'{}' should stand here", wanted as char)))
+            Err(self.problem(&format!("'{}' expected here", wanted as char)))
         }
     }
 
@@ -167,7 +167,7 @@ impl<'a> Scanner<'a> {
             self.pass();
         }
         if word.is_empty() {
-            return Err(self.problem("a word should stand here"));
+            return Err(self.problem("a word expected here"));
         }
         Ok(String::from_utf8_lossy(&word).into_owned())
     }
@@ -176,7 +176,7 @@ impl<'a> Scanner<'a> {
     pub fn quoted(&mut self) -> Result<String, Problem> {
         let quote = match self.peek()? {
             Some(q) if q == b'"' || q == b'\'' => q,
-            _ => return Err(self.problem("a name in quotation marks should stand here")),
+            _ => return Err(self.problem("a name in quotation marks expected here")),
         };
         let mut opening = 0;
         while opening < 3 && self.here()? == Some(quote) {

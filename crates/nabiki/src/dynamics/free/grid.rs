@@ -59,7 +59,8 @@ impl Crowd {
         let count = nodes.as_dvec3().element_product();
         if count > MOST_NODES as f64 {
             let remedy = format!(
-                "hair that reaches {:.0} cm would take {count:.0} cells of it, and {MOST_NODES} are the most: give larger ones",
+                "hair that reaches {:.0} cm needs {count:.0} such cells, but at most {MOST_NODES} are allowed: give larger \
+                 ones",
                 (high - low).max_element()
             );
             return Err(SettingError::new("neighbours.cell", forces.cell, remedy));

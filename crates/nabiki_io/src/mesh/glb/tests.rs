@@ -88,7 +88,7 @@ fn texture_coordinates_of_every_component_type_are_shares_with_v_upward() {
 fn wrong_texture_coordinates_cost_these_and_not_the_mesh() {
     let floats = |all: &[f32]| all.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
     let short = (floats(&[0.0; 5]), "accessor 1: 3 items reach beyond their buffer");
-    let nowhere = (floats(&[0.0, 0.0, 0.5, f32::NAN, 0.0, 0.0]), "(0.5, NaN) is no place of a texture");
+    let nowhere = (floats(&[0.0, 0.0, 0.5, f32::NAN, 0.0, 0.0]), "(0.5, NaN) is not a texture coordinate");
     for (uvs, why) in [short, nowhere] {
         let (mesh, unread) = from_bytes(&glb(5126, false, &uvs, false), None, &[]).unwrap();
         assert_eq!((mesh.triangles.len(), mesh.corner_uvs), (1, None), "{why}");

@@ -63,7 +63,7 @@ impl Stage for Roots {
         let list = list.map_err(|mut refused| {
             // Hair grows where the skin lies near the ellipsoid: one that is given may be to blame as well.
             if refused.thing == "hair.hairline" && matches!(model.inputs.ellipsoid, EllipsoidChoice::Given(_)) {
-                refused.remedy += ", or mend head.ellipsoid: hair grows where the skin lies near that";
+                refused.remedy += ", or correct head.ellipsoid: hair grows where the skin is near it";
             }
             at.refusal(refused)
         })?;

@@ -69,7 +69,7 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
     let hair = match settings.strands {
         Some(count) if count > hair.strands.len() => {
             let (file, there) = (settings.file.display(), hair.strands.len());
-            let remedy = format!("{file} has {there} strands: ask for fewer, or for all by leaving it out");
+            let remedy = format!("{file} has {there} strands: request fewer, or leave it out to use all");
             return Err(at.refusal(SettingError::new("hair.strands", count, remedy)));
         }
         Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count, at)?),
