@@ -27,7 +27,7 @@ pub enum Dialog {
     },
     /// The list of keys.
     Keys,
-    /// The words of the first start.
+    /// Shows the note with first steps.
     Welcome,
     /// The preferences.
     Preferences,

@@ -20,7 +20,7 @@ pub enum Found {
 
 /// What intervals have, which no page has.
 const OF_INTERVALS: [[&str; 3]; 3] = [
-    ["Force", "force.vector", "The vector of an interval: where the wind pushes, and how strongly."],
+    ["Force", "force.vector", "The vector of an interval: direction and strength of the wind."],
     ["Strength", "force.vector", "The strength of an interval's wind, |F|."],
     ["Frames", "force.through", "The last frame of an interval."],
 ];
@@ -121,11 +121,11 @@ impl When {
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Always => "in all scenes",
-            Self::Paper => "in the paper's form (Motion, Form)",
-            Self::Free => "in the free form (Motion, Form)",
-            Self::Grown => "where hair is grown, and this scene's is read from a file",
-            Self::Imported => "where hair is read from a file, and this scene's is grown",
-            Self::ImportedHead => "where the head is read from a file, and this scene's is built in",
+            Self::Paper => "in the paper's form (Motion > Form)",
+            Self::Free => "in the free form (Motion > Form)",
+            Self::Grown => "if the hair is grown; in this scene it comes from a file",
+            Self::Imported => "if the hair comes from a file; in this scene it is grown",
+            Self::ImportedHead => "if the head comes from a file; in this scene it is built in",
         }
     }
 }

@@ -136,7 +136,7 @@ fn what_a_new_table_is_given_makes_a_scene() {
 #[test]
 fn an_error_leads_to_its_field() {
     let label = |key: &str| find(key).map(|(_, group, setting)| (group.title, setting.label));
-    assert_eq!(label("free.stiffness[1]"), Some(("Shape and calm", "Stiffness")));
+    assert_eq!(label("free.stiffness[1]"), Some(("Shape and settling", "Stiffness")));
     assert_eq!(label("fan[3].falloff.radius"), Some(("Fans", "Radius")));
     assert_eq!(label("hair.style.length.top"), Some(("Length", "Top")));
     assert_eq!(label("picture.hair.colour.rgb"), Some(("Hair", "Colour")));

@@ -43,7 +43,7 @@ impl Kind {
     pub fn help(self) -> &'static str {
         match self {
             Self::Movie => {
-                "All strands, drawn: a movie, a contact sheet, and what Picture > What a run writes asks for. A folder."
+                "All strands, drawn: a movie, a contact sheet, and the files set in Picture > Output. Writes a folder."
             }
             Self::Still => "This frame as a PNG, all strands, from the scene's camera. A folder.",
             Self::Usd => "Moving hair for other programs: .usdc, or .usda as text.",

@@ -235,7 +235,7 @@ fn keys(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             }
             let ui = &mut columns[column(2)];
             let camera = session.preferences().navigation.hands();
-            let camera = camera.map(|(hand, what)| (hand.to_owned(), what, "As the preferences say."));
+            let camera = camera.map(|(hand, what)| (hand.to_owned(), what, "Set in Preferences."));
             key_rows(ui, "Camera", 140.0, camera.into_iter());
             for place in PLACES {
                 let rows = GESTURES.iter().filter(|gesture| gesture.place == place);
@@ -289,16 +289,10 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             changed.zoom = percent as f32 / 100.0;
         }
     });
-    super::fields::row(
-        ui,
-        "Finished picture",
-        "All strands by the final renderer, when the hand rests.",
-        false,
-        |ui| {
-            ui.checkbox(&mut changed.final_picture, "");
-        },
-    );
-    super::fields::row(ui, "Paths of tips", "Where tips were and will be.", false, |ui| {
+    super::fields::row(ui, "Final picture", "Renders all strands when you pause.", false, |ui| {
+        ui.checkbox(&mut changed.final_picture, "");
+    });
+    super::fields::row(ui, "Paths of tips", "Shows where the tips were and will be.", false, |ui| {
         ui.checkbox(&mut changed.ghosts, "");
     });
     super::fields::row(ui, "Arrows", "The wind in space.", false, |ui| {

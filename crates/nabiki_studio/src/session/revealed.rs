@@ -62,7 +62,7 @@ impl Session {
         }
         let Some((page, group, setting)) = settings::find(key) else { return };
         if !group.when.holds(document.scene()) {
-            let text = format!("{}: {} has an effect only {}", group.title, setting.label, group.when.in_words());
+            let text = format!("{}: {} works only {}", group.title, setting.label, group.when.in_words());
             return self.refuse(FOUND, text);
         }
         self.accept(FOUND);

@@ -6,7 +6,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Strands",
         "hair",
-        "How many, and how finely cut.",
+        "How many strands, and how many segments each has.",
         &["strands", "segments", "segment_length", "seed"],
     )
     .open()
@@ -14,7 +14,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Hair file",
         "hair",
-        "Where the strands are read from.",
+        "The file that the strands come from.",
         &[
             "file", "groups", "strands", "segments", "segment_length", "unit", "up", "facing", "origin", "root",
             "join_within", "drop_shorter_than",
@@ -25,7 +25,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Length",
         "hair.style",
-        "Length before any cut.",
+        "The length of the hair before any cut.",
         &["length.top", "length.sides", "length.back", "length.fringe"],
     )
     .open()
@@ -33,7 +33,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Cuts",
         "hair.style.cuts",
-        "Planes beyond which hair is cut off.",
+        "Planes that cut off the hair beyond them.",
         &["point", "normal", "region", "shortest"],
     )
     .shaped(Shape::List("point = [0.0, -18.0, 0.0]\nnormal = [0.0, -1.0, 0.0]"))
@@ -41,21 +41,21 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Curl",
         "hair.style.curl",
-        "Every strand winds about the line in which it would hang.",
+        "Winds each strand around the line in which it would hang.",
         &["radius", "pitch", "from", "flatness", "gather", "variation", "frizz"],
     )
     .when(When::Grown),
     Group::new(
         "Parting",
         "hair.style.parting",
-        "The line that hair is combed away from, as seen from above.",
+        "The line from which hair is combed away, seen from above.",
         &["front", "crown", "wobble"],
     )
     .when(When::Grown),
     Group::new(
         "Comb",
         "hair.style.comb",
-        "The styling force near the root.",
+        "The styling force near the roots.",
         &["away", "sweep", "off_face", "decay"],
     )
     .when(When::Grown),
@@ -69,42 +69,42 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Stiffness at rest",
         "hair.style",
-        "Over about this length hair bends under its own weight.",
+        "The length over which hair bends under its own weight.",
         &["stiffness.top", "stiffness.sides", "stiffness.back", "stiffness.fringe", "lever_arms"],
     )
     .when(When::Grown),
     Group::new(
         "Lift",
         "hair.style",
-        "Angle between a root and the scalp.",
+        "The angle between hair and scalp at the roots.",
         &["lift_degrees.top", "lift_degrees.sides", "lift_degrees.back", "lift_degrees.fringe"],
     )
     .when(When::Grown),
     Group::new(
         "Volume",
         "hair.style.volume",
-        "How hair lies over hair.",
+        "How layers of hair lie on each other.",
         &["thickness", "reach", "gap", "over_ears"],
     )
     .when(When::Grown),
     Group::new(
         "Clumps",
         "hair.style.clumps",
-        "Neighbours that fall together.",
+        "Neighbouring strands that fall together.",
         &["size", "gather", "direction_degrees", "wave", "wave_length"],
     )
     .when(When::Grown),
     Group::new(
         "Variation",
         "hair.style.variation",
-        "How much strands differ.",
+        "How much the strands differ.",
         &["length", "stiffness", "direction_degrees", "strays", "cut", "baby_hair"],
     )
     .when(When::Grown),
     Group::new(
         "Ponytail",
         "hair.style.ponytail",
-        "Hair goes along the head to a band, and falls from it.",
+        "Gathers the hair along the head to a band, from which it falls.",
         &["at", "radius", "direction"],
     )
     .shaped(Shape::Optional("at = [-11.0, 2.0, 0.0]"))
@@ -112,7 +112,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Hairline",
         "hair.hairline",
-        "Where hair grows: depths below the top of the head, in units of its mean horizontal half axis, 8.65 cm on the bust.",
+        "Where hair grows. Depths are below the top of the head, in units of its mean horizontal half axis (8.65 cm on the bust).",
         &["forehead", "temple_recession", "sideburns", "above_ears", "behind_ears", "nape", "fade", "wander"],
     )
     .when(When::Grown),

@@ -21,21 +21,26 @@ const MOTION: &[&str] = &[
 ];
 
 pub(super) const GROUPS: &[Group] = &[
-    Group::new("Head", "head", "Where the head comes from.", &["mesh", "ellipsoid", "shell"]).open(),
+    Group::new("Head", "head", "The shape of the head.", &["mesh", "ellipsoid", "shell"]).open(),
     Group::new(
-        "How its file lies",
+        "Head file",
         "head",
-        "What the file does not say itself.",
+        "Unit and orientation, where the file does not give them.",
         &["groups", "unit", "up", "facing", "origin"],
     )
     .open()
     .when(When::ImportedHead),
-    Group::new("Motion of the head", "head.motion", "A file that moves the head; without one it stands still.", MOTION)
-        .shaped(Shape::Optional("")),
+    Group::new(
+        "Head motion",
+        "head.motion",
+        "A file that moves the head. Without one, the head does not move.",
+        MOTION,
+    )
+    .shaped(Shape::Optional("")),
     Group::new(
         "Bodies",
         "body",
-        "What else hair does not enter.",
+        "Other objects that hair collides with.",
         &[
             "mesh",
             "groups",
@@ -54,7 +59,12 @@ pub(super) const GROUPS: &[Group] = &[
     )
     .shaped(Shape::List(""))
     .when(When::Free),
-    Group::new("Motion of a body", "body.motion", "A file that moves the body; without one it stands still.", MOTION)
-        .shaped(Shape::Optional(""))
-        .when(When::Free),
+    Group::new(
+        "Body motion",
+        "body.motion",
+        "A file that moves the body. Without one, the body does not move.",
+        MOTION,
+    )
+    .shaped(Shape::Optional(""))
+    .when(When::Free),
 ];

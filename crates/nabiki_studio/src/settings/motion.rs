@@ -6,38 +6,53 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Time",
         "motion",
-        "How long it goes, and by which equations.",
+        "How long the motion is, and which equations it follows.",
         &["form", "frames", "frame_rate", "slow", "force_space"],
     )
     .open(),
     Group::new(
-        "Shape and calm",
+        "Shape and settling",
         "free",
         "What holds hair in shape and brings it to rest.",
         &["stiffness", "hold", "settle", "gravity", "drag", "substeps", "pseudo_force"],
     )
     .open()
     .when(When::Free),
-    Group::new("Touch", "contact", "How hair and head touch.", &["margin", "friction", "static_friction"])
-        .when(When::Free),
-    Group::new("Neighbours", "neighbours", "Hair against hair.", &["pressure", "cohesion", "cell", "carriers"])
-        .shaped(Shape::Optional(""))
-        .when(When::Free),
+    Group::new(
+        "Contact",
+        "contact",
+        "How hair collides with the head and slides on it.",
+        &["margin", "friction", "static_friction"],
+    )
+    .when(When::Free),
+    Group::new(
+        "Neighbours",
+        "neighbours",
+        "How strands press on each other and stick together.",
+        &["pressure", "cohesion", "cell", "carriers"],
+    )
+    .shaped(Shape::Optional(""))
+    .when(When::Free),
     Group::new(
         "Locks",
         "free.variation",
-        "How locks differ, so that they part in the wind.",
+        "How locks differ, so that they separate in the wind.",
         &["air", "flutter", "flutter_frames", "stiffness", "strands", "flyaways", "size", "seed"],
     )
     .shaped(Shape::Optional(""))
     .when(When::Free),
-    Group::new("Tie", "free.tie", "A band: hair that passes it does not move before it.", &["at", "within"])
-        .shaped(Shape::Optional("at = [-11.0, 2.0, 0.0]\nwithin = 1.5"))
-        .when(When::Free),
+    Group::new(
+        "Tie",
+        "free.tie",
+        "A band that ties the hair. From root to band, the hair does not move.",
+        &["at", "within"],
+    )
+    .shaped(Shape::Optional("at = [-11.0, 2.0, 0.0]\nwithin = 1.5"))
+    .when(When::Free),
     Group::new(
         "Inertia",
         "motion",
-        "How heavy hair is, and how far a frame leads it.",
+        "How heavy the hair is, and how far it moves in a frame.",
         &["time_step", "linear_density", "inertia_length_floor", "straighten"],
     ),
 ];

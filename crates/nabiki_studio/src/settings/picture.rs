@@ -6,7 +6,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Hair",
         "picture.hair",
-        "Width, colour and shading.",
+        "Width, colour and shading of the hair.",
         &[
             "colour",
             "width",
@@ -25,7 +25,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Camera",
         "picture.camera",
-        "On an orbit about the hair. Take it over from the view with View > Use as camera.",
+        "Orbits the hair. View > Use view as camera sets it from the view.",
         &[
             "projection",
             "azimuth",
@@ -43,21 +43,21 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Camera at the last frame",
         "picture.camera.to",
-        "It glides there from the values above.",
+        "The camera moves from the values above to these.",
         &["azimuth", "elevation", "distance", "fov", "target", "focus_distance"],
     )
     .shaped(Shape::Optional("")),
     Group::new(
         "Lights",
         "picture.lights",
-        "Lamps, far away.",
+        "Distant lights.",
         &["azimuth", "elevation", "strength", "colour", "spread", "space"],
     )
     .shaped(Shape::List("")),
     Group::new(
         "Sky",
         "picture.sky",
-        "The light that comes from all around.",
+        "Light from all directions.",
         &["strength", "above", "below", "occlusion", "space"],
     ),
     Group::new(
@@ -69,20 +69,20 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Background",
         "picture.background",
-        "A vertical gradient, or nothing.",
+        "A vertical gradient, or transparent.",
         &["top", "bottom", "transparent"],
     ),
     Group::new(
         "Frame",
         "picture",
-        "Size and light of the pictures.",
+        "Size, exposure and sampling of the pictures.",
         &["size", "exposure", "tone_mapping", "shutter", "shadows", "antialiasing", "samples"],
     ),
-    Group::new("Movie", "picture.video", "The movie's file.", &["quality", "frame_rate"]),
+    Group::new("Movie", "picture.video", "Quality and frame rate of the movie.", &["quality", "frame_rate"]),
     Group::new(
-        "What a run writes",
+        "Output",
         "output",
-        "Beside the movie.",
+        "The files that a run writes.",
         &["movie", "png_frames", "png_bits", "exr_frames", "field", "sheet"],
     ),
 ];

@@ -4,16 +4,16 @@ use super::{Group, Shape, When};
 
 pub(super) const GROUPS: &[Group] = &[
     Group::new(
-        "From one vector to the next",
+        "Between intervals",
         "wind",
-        "The vectors themselves are the intervals of the timeline.",
+        "How one vector leads to the next. The intervals in the timeline set the vectors.",
         &["ease"],
     )
     .open(),
     Group::new(
         "Gusts",
         "gust",
-        "A random factor on the intervals' vectors, which rises and falls as wind does.",
+        "A random factor on the vectors of the intervals, which rises and falls like real wind.",
         &["intensity", "time_scale", "highest", "seed"],
     )
     .shaped(Shape::Optional("")),
@@ -24,40 +24,45 @@ pub(super) const GROUPS: &[Group] = &[
         &["strength", "swirl_size", "pulse_length", "roughness", "octaves", "drift", "near_head", "seed", "envelope"],
     )
     .shaped(Shape::Optional("")),
-    Group::new("Flow round the head", "flow", "Leads the wind round the head instead of through it.", &["thickness"])
-        .shaped(Shape::Optional("")),
     Group::new(
-        "Wind of the head's motion",
+        "Flow around the head",
+        "flow",
+        "Makes the wind flow around the head instead of through it.",
+        &["thickness"],
+    )
+    .shaped(Shape::Optional("")),
+    Group::new(
+        "Wind from head motion",
         "body_wind",
-        "The wind that a head makes by moving; it needs a motion of the head.",
+        "The wind that a moving head makes. Requires Head motion.",
         &["drag", "footfall", "smoothing"],
     )
     .shaped(Shape::Optional("")),
     Group::new(
         "Fans",
         "fan",
-        "Winds in a cone.",
+        "Wind that blows in a cone.",
         &["position", "direction", "strength", "spread", "falloff.law", "falloff.radius", "envelope"],
     )
     .shaped(Shape::List("position = [40.0, 0.0, 0.0]\ndirection = [-1.0, 0.0, 0.0]\nfalloff = { radius = 80.0 }")),
     Group::new(
         "Whirls",
         "vortex",
-        "Forces round an axis.",
+        "Forces around an axis.",
         &["position", "axis", "strength", "falloff.law", "falloff.radius", "envelope"],
     )
     .shaped(Shape::List("position = [-20.0, 0.0, 0.0]")),
     Group::new(
         "Points",
         "point",
-        "Points that blow or draw.",
+        "Points that push the hair away or pull it in.",
         &["position", "strength", "falloff.law", "falloff.radius", "envelope"],
     )
     .shaped(Shape::List("position = [-30.0, 0.0, 0.0]\nstrength = -50.0")),
     Group::new(
         "Disturbance",
         "disturbance",
-        "Turns every strand a little, at random, every so many frames.",
+        "Turns each strand slightly at random, every few frames.",
         &["every", "from", "amplitude", "over", "seed"],
     )
     .shaped(Shape::Optional(""))
@@ -65,7 +70,7 @@ pub(super) const GROUPS: &[Group] = &[
     Group::new(
         "Pseudo-force",
         "pseudo_force",
-        "Weakens the wind before the head: the paper's stand-in for collisions.",
+        "Weakens the wind in front of the head. The paper uses it in place of collisions.",
         &["alpha", "coefficients"],
     ),
 ];

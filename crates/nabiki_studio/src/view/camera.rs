@@ -43,12 +43,10 @@ impl Navigation {
     /// What it has hands do, in words.
     pub const fn hands(self) -> [(&'static str, &'static str); 3] {
         match self {
-            Self::Blender => [
-                ("Middle, or Alt+left", "Turns."),
-                ("The same with Shift", "Shifts."),
-                ("The same with Ctrl", "Nearer, farther."),
-            ],
-            Self::Maya => [("Alt+left", "Turns."), ("Alt+middle", "Shifts."), ("Alt+right", "Nearer, farther.")],
+            Self::Blender => {
+                [("Middle, or Alt+left", "Turns."), ("The same with Shift", "Pans."), ("The same with Ctrl", "Zooms.")]
+            }
+            Self::Maya => [("Alt+left", "Turns."), ("Alt+middle", "Pans."), ("Alt+right", "Zooms.")],
         }
     }
 

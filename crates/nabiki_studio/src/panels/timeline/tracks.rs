@@ -72,7 +72,7 @@ pub fn ui(
         for (label, table, once) in [
             ("Gusts", "gust", true),
             ("Turbulence", "turbulence", true),
-            ("Flow round the head", "flow", true),
+            ("Flow around the head", "flow", true),
             ("Fan", "fan", false),
             ("Whirl", "vortex", false),
             ("Point", "point", false),
