@@ -350,8 +350,8 @@ impl Panes<'_> {
         let (Some(document), Some(take)) = (self.session.document(), self.session.take()) else {
             ui.centered_and_justified(|ui| {
                 let text = match self.session.trouble() {
-                    Some(_) => "This scene does not move yet: see below what is wrong.",
-                    None if self.session.is_moving() => "The hair grows...",
+                    Some(_) => "This scene does not move yet. The message below gives the reason.",
+                    None if self.session.is_moving() => "Growing the hair...",
                     None => "Open a scene (Ctrl+O), or drop one here.",
                 };
                 ui.label(theme::faint(text));

@@ -178,7 +178,7 @@ impl Role {
         match self {
             Self::Hair => "Hair",
             Self::Head => "Head",
-            Self::Motion => "Motion of the head",
+            Self::Motion => "Head motion",
             Self::Body => "Body",
         }
     }

@@ -57,7 +57,7 @@ pub enum SaveError {
     #[error("{} has been changed by another program since it was opened here", .0.display())]
     Changed(PathBuf),
     /// It has no file yet.
-    #[error("the scene has no file yet: save it under a name")]
+    #[error("the scene has no file yet; use Save as")]
     NoFile,
     /// The scene cannot be written as it is, or the disk refuses.
     #[error(transparent)]
@@ -84,7 +84,7 @@ impl Document {
     /// A scene that is not what its file holds, as one that was recovered, or whose text has been mended. `bytes`: those of
     /// the file; none where it has no file.
     pub fn unsaved(scene: Scene, bytes: Option<Vec<u8>>) -> Self {
-        let undo = vec![Step { name: "what was not saved".to_owned(), scene: scene.clone() }];
+        let undo = vec![Step { name: "Unsaved changes".to_owned(), scene: scene.clone() }];
         match bytes {
             Some(bytes) => Self { saved: Some(Saved { bytes, scene: None }), ..Self::untitled(scene) },
             // Without a file it counts as changed by having been.

@@ -10,11 +10,11 @@ use nabiki_studio::icon;
 use nabiki_studio::preferences::{self, Preferences};
 
 const HELP: &str = "\
-The window of Nabiki: take hold of the hair, and see it move.
+The studio of Nabiki: try out hair and wind in a window.
 
 Usage: nabiki-studio [SCENE.toml]
 
-Without a scene the one opened last is opened, or a gust of wind at the first start.
+Without SCENE.toml, the studio opens the last scene, or a built-in gust at the first start.
 
   -h, --help       this text
   -V, --version    the version
@@ -38,14 +38,14 @@ fn main() -> ExitCode {
             }
             _ if scene.is_some() => {
                 let second = OneLine(argument.display());
-                eprintln!("nabiki-studio: {second}: a window shows one scene; start another for it");
+                eprintln!("nabiki-studio: {second}: the studio opens one scene; start it again for another");
                 return ExitCode::FAILURE;
             }
             _ => scene = Some(PathBuf::from(argument)),
         }
     }
     // Before anything is drawn: threads that the system does not give would end the window later.
-    let fewer = "set RAYON_NUM_THREADS to fewer";
+    let fewer = "set RAYON_NUM_THREADS to a lower number";
     if let Err(refused) = nabiki_scene::threads::made(None, fewer, rayon::ThreadPoolBuilder::build_global) {
         eprintln!("nabiki-studio: {refused}");
         return ExitCode::FAILURE;
@@ -56,7 +56,7 @@ fn main() -> ExitCode {
             let what = match error {
                 // Their own words are about their source.
                 eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => "no window can be opened here".to_owned(),
-                eframe::Error::Wgpu(_) => "no graphics driver draws windows here".to_owned(),
+                eframe::Error::Wgpu(_) => "no graphics driver can draw a window here".to_owned(),
                 other => other.to_string(),
             };
             eprintln!(

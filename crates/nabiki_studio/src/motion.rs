@@ -354,14 +354,14 @@ fn check_size(built: &BuiltScene) -> Result<(), Error> {
     let strands = built.strands().len();
     if bytes > MOST_BYTES {
         return Err(Error::refused(format!(
-            "{strands} strands in {} frames take {:.1} GiB: show fewer strands, or give motion.frames less",
+            "{strands} strands in {} frames need {:.1} GiB: show fewer strands, or set motion.frames lower",
             built.frames() + 1,
             bytes as f64 / (1u64 << 30) as f64
         )));
     }
     if points > MOST_POINTS {
         return Err(Error::refused(format!(
-            "{strands} strands of {points} points are more than the view draws ({MOST_POINTS} points): show fewer"
+            "{strands} strands have {points} points, more than the view can draw ({MOST_POINTS}): show fewer strands"
         )));
     }
     Ok(())

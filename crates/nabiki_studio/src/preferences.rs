@@ -72,17 +72,14 @@ impl Preferences {
             Ok(text) => text,
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => return (Self::default(), None),
             Err(e) => {
-                return (
-                    Self::default(),
-                    Some(format!("{}: {e}; preferences are as at the first start", file.display())),
-                );
+                return (Self::default(), Some(format!("{}: {e}; the default preferences apply", file.display())));
             }
         };
         match toml::from_str::<Self>(&text) {
             Ok(read) => (read.sane(), None),
             Err(e) => {
                 let why = e.message().lines().next().unwrap_or_default().to_owned();
-                (Self::default(), Some(format!("{}: {why}; preferences are as at the first start", file.display())))
+                (Self::default(), Some(format!("{}: {why}; the default preferences apply", file.display())))
             }
         }
     }

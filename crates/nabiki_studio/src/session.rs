@@ -197,7 +197,7 @@ impl Session {
             Ok(keeper) => self.keeper = Some(keeper),
             Err(e) => {
                 self.say_of_window(
-                    format!("{}: {e}; what is not saved is lost if this window is killed", folder.display()),
+                    format!("{}: {e}; unsaved changes are lost if this window is killed", folder.display()),
                     true,
                 );
             }
@@ -492,7 +492,7 @@ impl Session {
     pub fn remember(&mut self) {
         let Some(folder) = &self.folder else { return };
         if let Err(e) = self.preferences.save(folder) {
-            self.say_of_window(format!("{}: {e}; preferences are not remembered", folder.display()), true);
+            self.say_of_window(format!("{}: {e}; preferences are not saved", folder.display()), true);
         }
     }
 

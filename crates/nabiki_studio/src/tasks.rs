@@ -43,12 +43,12 @@ impl Kind {
     pub fn help(self) -> &'static str {
         match self {
             Self::Movie => {
-                "All strands, drawn: a movie, a contact sheet, and the files set in Picture > Output. Writes a folder."
+                "Draws all strands: a movie, a contact sheet, and the files set in Picture > Output. Writes a folder."
             }
-            Self::Still => "This frame as a PNG, all strands, from the scene's camera. A folder.",
+            Self::Still => "Draws this frame with all strands as a PNG, from the scene's camera. Writes a folder.",
             Self::Usd => "Moving hair for other programs: .usdc, or .usda as text.",
             Self::Alembic => "Moving hair for other programs: .abc.",
-            Self::Cache => "The motion for nabiki render: .nabiki.",
+            Self::Cache => "The motion cache that nabiki render reads: .nabiki.",
         }
     }
 
@@ -245,7 +245,7 @@ fn carry_out(order: &Order, scene: Scene, watch: &mut dyn Watch) -> Result<(), E
         && !folder.exists()
     {
         std::fs::create_dir_all(folder)
-            .map_err(|e| Error::refused(format!("{}: cannot make this folder: {e}", folder.display())))?;
+            .map_err(|e| Error::refused(format!("{}: cannot create this folder: {e}", folder.display())))?;
     }
     match kind {
         Kind::Movie => tasks::run(scene, shown, place, &ExportOptions::default(), watch),

@@ -75,7 +75,7 @@ impl View {
     pub fn new(render_state: Option<&RenderState>) -> Self {
         let screen = match render_state {
             Some(state) => Screen::new(state),
-            None => Err("There is no graphics adapter, so nothing can be drawn here. All else works.".to_owned()),
+            None => Err("There is no graphics adapter, so the view stays empty. Everything else works.".to_owned()),
         };
         Self {
             screen,

@@ -285,7 +285,7 @@ fn an_export_is_begun_from_its_dialog_and_ends_in_a_file() {
     window.press(Modifiers::COMMAND, Key::E);
     window.click("USD");
     assert!(matches!(window.session().dialog(), Some(Dialog::Export(_))));
-    window.click("Begin");
+    window.click("Start export");
     assert_eq!(window.session().tasks().len(), 1);
     while !window.session().tasks()[0].has_ended() {
         std::thread::yield_now();
@@ -343,7 +343,7 @@ fn a_scene_with_errors_shows_its_line() {
         window.drag(label, vec2(60.0, 0.0));
     }
     assert_eq!(window.session().document().unwrap().undo_name(), None, "the scene behind a text is left alone");
-    window.click("Leave it");
+    window.click("Close the text");
     assert!(window.session().broken().is_none());
 }
 
@@ -387,7 +387,7 @@ fn the_words_of_the_first_start_go_with_the_first_touch_which_does_what_it_does(
     let folder = tempfile::tempdir().unwrap();
     let mut harness = harness(folder.path().to_owned(), None, vec2(1280.0, 720.0));
     assert_eq!(harness.state().session().dialog(), Some(&Dialog::Welcome));
-    let words = harness.get_by_label_contains("the wind is the intervals").rect();
+    let words = harness.get_by_label_contains("The intervals below are the wind").rect();
     let view = harness.get_by_label("View of the hair").rect();
     assert!(view.contains_rect(words) && words.right() < view.left() + 0.3 * view.width(), "{words} in {view}");
     harness.key_press(Key::Space);
@@ -395,7 +395,7 @@ fn the_words_of_the_first_start_go_with_the_first_touch_which_does_what_it_does(
     harness.step();
     assert_eq!(harness.state().session().dialog(), None);
     assert!(harness.state().session().play.is_playing());
-    assert!(harness.query_by_label_contains("the wind is the intervals").is_none());
+    assert!(harness.query_by_label_contains("The intervals below are the wind").is_none());
     assert!(harness.state().session().preferences().welcomed);
 }
 
@@ -427,11 +427,11 @@ fn a_dropped_file_is_asked_how_it_lies_and_a_wrong_one_refused_in_a_line() {
         for role in import.roles.clone() {
             assert!(window.harness.query_all_by_label(role.name()).count() > 0, "{name}: {}", role.name());
         }
-        for button in ["Cancel", "Take it"] {
+        for button in ["Cancel", "Import"] {
             let rect = window.harness.get_by_label(button).rect();
             assert!(rect.right() < 1280.0 && rect.bottom() < 720.0, "{name}: {button} at {rect}");
         }
-        window.click("Take it");
+        window.click("Import");
         assert_eq!(window.session().dialog(), None);
         let said = window.session().trouble().map(|trouble| trouble.text.clone());
         let said = said.or_else(|| window.session().words().last().map(|word| word.text.clone())).unwrap();

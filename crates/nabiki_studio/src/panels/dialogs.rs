@@ -82,7 +82,10 @@ fn paragraph(ui: &mut Ui, text: impl Into<egui::WidgetText>) {
 fn conflict(ui: &mut Ui, path: &std::path::Path, commands: &mut Commands) {
     ui.heading("Another program has changed the file");
     ui.add_space(6.0);
-    paragraph(ui, format!("{} is no longer what was opened here. Saving over it loses those changes.", path.display()));
+    paragraph(
+        ui,
+        format!("{} has changed since you opened it. If you save over it, those changes are lost.", path.display()),
+    );
     buttons(ui, |ui| {
         if ui.button("Cancel").clicked() {
             commands.push(Command::CloseDialog);
@@ -90,7 +93,7 @@ fn conflict(ui: &mut Ui, path: &std::path::Path, commands: &mut Commands) {
         if ui.button("Save under another name...").clicked() {
             commands.push(Command::Act(crate::actions::Action::SaveAs));
         }
-        if ui.button("Read theirs").hint("Yours can be had back with Undo.").clicked() {
+        if ui.button("Read theirs").hint("Undo brings yours back.").clicked() {
             commands.extend([Command::CloseDialog, Command::Act(crate::actions::Action::Reload)]);
         }
         if ui.button("Save over it").clicked() {
@@ -105,11 +108,11 @@ fn unsaved(ui: &mut Ui, session: &Session, next: &Next, commands: &mut Commands)
     ui.heading("Save the changes?");
     ui.add_space(6.0);
     let what = match next {
-        Next::Quit => "the window is closed",
-        Next::LeaveText => "its text is left",
-        Next::Open(_) | Next::Recover(_) | Next::UseMended => "another scene is opened",
+        Next::Quit => "close the window",
+        Next::LeaveText => "close its text",
+        Next::Open(_) | Next::Recover(_) | Next::UseMended => "open another scene",
     };
-    paragraph(ui, format!("{name} has changes that are lost when {what}."));
+    paragraph(ui, format!("{name} has unsaved changes. They are lost if you {what}."));
     buttons(ui, |ui| {
         if ui.button("Cancel").clicked() {
             commands.push(Command::CloseDialog);
@@ -124,9 +127,9 @@ fn unsaved(ui: &mut Ui, session: &Session, next: &Next, commands: &mut Commands)
 }
 
 fn exporting(ui: &mut Ui, commands: &mut Commands) {
-    ui.heading("Stop what is being exported?");
+    ui.heading("Stop the export?");
     ui.add_space(6.0);
-    paragraph(ui, "An export runs. When the window is closed it ends, and leaves nothing.");
+    paragraph(ui, "An export is still running. If you close the window, it is cancelled and its files are removed.");
     buttons(ui, |ui| {
         if ui.button("Cancel").clicked() {
             commands.push(Command::CloseDialog);
@@ -138,7 +141,7 @@ fn exporting(ui: &mut Ui, commands: &mut Commands) {
 }
 
 fn recover(ui: &mut Ui, kept: &[Kept], commands: &mut Commands) {
-    ui.heading("Not saved when a window was closed by force");
+    ui.heading("Unsaved work from a window that did not close normally");
     ui.add_space(6.0);
     let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |passed| passed.as_secs());
     for (n, kept) in kept.iter().enumerate() {
@@ -146,7 +149,7 @@ fn recover(ui: &mut Ui, kept: &[Kept], commands: &mut Commands) {
             if ui.button("Open").clicked() {
                 commands.push(Command::Recover(n));
             }
-            if ui.button("Throw away").clicked() {
+            if ui.button("Discard").clicked() {
                 commands.push(Command::Forget(n));
             }
             let name = kept.path.file_name().unwrap_or_default().to_string_lossy();
@@ -160,7 +163,7 @@ fn recover(ui: &mut Ui, kept: &[Kept], commands: &mut Commands) {
         });
     }
     buttons(ui, |ui| {
-        if ui.button("Later").hint("They are offered again at the next start.").clicked() {
+        if ui.button("Later").hint("Asks again at the next start.").clicked() {
             commands.push(Command::CloseDialog);
         }
     });
@@ -212,7 +215,7 @@ fn palette(ui: &mut Ui, query: &str, line: usize, commands: &mut Commands) {
             }
         }
         if count == 0 {
-            ui.label(theme::faint("No command and no setting has these letters."));
+            ui.label(theme::faint("No command or setting matches."));
         }
     });
 }
@@ -270,11 +273,11 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     ui.heading("Preferences");
     ui.add_space(6.0);
     let mut changed: Preferences = session.preferences().clone();
-    super::fields::row(ui, "Navigation", "Which mouse buttons turn, shift and near the view.", false, |ui| {
+    super::fields::row(ui, "Navigation", "Which mouse buttons turn, pan and zoom the view.", false, |ui| {
         ui.selectable_value(&mut changed.navigation, Navigation::Blender, "Blender");
         ui.selectable_value(&mut changed.navigation, Navigation::Maya, "Maya");
     });
-    super::fields::row(ui, "Strands", "Shown, and moved with every touch.", false, |ui| {
+    super::fields::row(ui, "Strands", "How many strands the view shows.", false, |ui| {
         let what = "Strands shown at first";
         let mut strands = changed.strands as f64;
         let field = Number { range: 1.0..=ALL as f64, step: 10.0, decimals: 0, most: "all", ..Number::of(what) };
@@ -282,9 +285,9 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             changed.strands = strands as usize;
         }
     });
-    super::fields::row(ui, "Size", "Of type and panels, by what the system says.", false, |ui| {
+    super::fields::row(ui, "Size", "Size of text and panels, relative to the system's setting.", false, |ui| {
         let mut percent = f64::from((100.0 * changed.zoom).round());
-        let field = Number { range: 50.0..=400.0, decimals: 0, unit: "%", ..Number::of("Size of the type") };
+        let field = Number { range: 50.0..=400.0, decimals: 0, unit: "%", ..Number::of("Text size") };
         if field.ui(ui, &mut percent, commands).changed() {
             changed.zoom = percent as f32 / 100.0;
         }
@@ -292,15 +295,15 @@ fn preferences(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     super::fields::row(ui, "Final picture", "Renders all strands when you pause.", false, |ui| {
         ui.checkbox(&mut changed.final_picture, "");
     });
-    super::fields::row(ui, "Paths of tips", "Shows where the tips were and will be.", false, |ui| {
+    super::fields::row(ui, "Tip paths", "Shows where the tips were and will be.", false, |ui| {
         ui.checkbox(&mut changed.ghosts, "");
     });
-    super::fields::row(ui, "Arrows", "The wind in space.", false, |ui| {
+    super::fields::row(ui, "Wind arrows", "Shows the wind as arrows where it varies in space.", false, |ui| {
         ui.checkbox(&mut changed.arrows, "");
     });
     if let Some(folder) = session.folder() {
         ui.add_space(6.0);
-        ui.add(egui::Label::new(theme::faint(format!("Remembered in {}", folder.display()))).wrap().selectable(true));
+        ui.add(egui::Label::new(theme::faint(format!("Stored in {}", folder.display()))).wrap().selectable(true));
     }
     if changed != *session.preferences() {
         commands.push(Command::Prefer(Box::new(changed)));
@@ -332,7 +335,7 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
     super::fields::row(
         ui,
         label,
-        "Where it goes. What is there already is replaced when the new one is whole.",
+        "Where the export goes. Existing files are replaced once the new ones are complete.",
         false,
         |ui| {
             let mut place = changed.place.display().to_string();
@@ -353,14 +356,14 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
         },
     );
     if order.kind == Kind::Still {
-        super::fields::row(ui, "Frame", "The frame that is drawn.", false, |ui| {
+        super::fields::row(ui, "Frame", "The frame to draw.", false, |ui| {
             let mut frame = f64::from(changed.frame);
             let range = 0.0..=f64::from(document.scene().motion.frames);
             Number { range, decimals: 0, ..Number::of("Frame") }.ui(ui, &mut frame, commands);
             changed.frame = frame as u32;
         });
     }
-    super::fields::row(ui, "Strands", "All of the scene's, or the first few for a try.", false, |ui| {
+    super::fields::row(ui, "Strands", "All strands of the scene, or only the first few for a test.", false, |ui| {
         let mut all = changed.strands.is_none();
         ui.checkbox(&mut all, "all");
         changed.strands = match (all, changed.strands) {
@@ -380,7 +383,7 @@ fn export(ui: &mut Ui, session: &Session, order: &Order, commands: &mut Commands
     }
     buttons(ui, |ui| {
         let may = !changed.place.as_os_str().is_empty();
-        if ui.add_enabled(may, egui::Button::new("Begin")).clicked() {
+        if ui.add_enabled(may, egui::Button::new("Start export")).clicked() {
             commands.push(Command::Export(changed));
         }
         if ui.button("Cancel").clicked() {
@@ -394,12 +397,12 @@ fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Comman
     ui.heading(name);
     ui.add_space(6.0);
     let mut changed = import.clone();
-    super::fields::row(ui, "It is", "What the file is for.", false, |ui| {
+    super::fields::row(ui, "Use as", "What the file is for.", false, |ui| {
         for role in &import.roles {
             ui.selectable_value(&mut changed.role, *role, role.name());
         }
     });
-    let says = "what the file says";
+    let says = "from the file";
     let choose = |ui: &mut Ui, id: &str, now: &mut String, words: &[&str]| {
         let text = if now.is_empty() { says.to_owned() } else { now.clone() };
         let list = egui::ComboBox::from_id_salt(id).selected_text(text).width(140.0).show_ui(ui, |ui| {
@@ -413,7 +416,7 @@ fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Comman
     super::fields::row(
         ui,
         "Unit",
-        "Needed where the file does not say it: .bvh, .tof, .abc, and .hair, .tfx, .obj and .ply that are not in cm.",
+        "Required if the file does not give it: .bvh, .tof, .abc, and .hair, .tfx, .obj and .ply files that are not in cm.",
         false,
         |ui| {
             choose(ui, "Unit", &mut changed.unit, &["mm", "cm", "dm", "m", "in", "ft"]);
@@ -426,20 +429,29 @@ fn import(ui: &mut Ui, session: &Session, import: &Import, commands: &mut Comman
         choose(ui, "Facing", &mut changed.facing, &AXES);
     });
     if changed.role == Role::Motion {
-        super::fields::row(ui, "Joint", "Joint, bone or node that carries the head; not used for .csv.", false, |ui| {
-            ui.add(egui::TextEdit::singleline(&mut changed.node).desired_width(140.0));
-        });
+        super::fields::row(
+            ui,
+            "Joint",
+            "The joint, bone or node that carries the head. Not used for .csv.",
+            false,
+            |ui| {
+                ui.add(egui::TextEdit::singleline(&mut changed.node).desired_width(140.0));
+            },
+        );
     }
     if changed != *import {
         commands.push(Command::Show(Box::new(Dialog::Import(changed.clone()))));
     }
     buttons(ui, |ui| {
-        if ui.button("Take it").clicked() {
+        if ui.button("Import").clicked() {
             commands.push(Command::CloseDialog);
             match session.import(&changed) {
                 Some(command) => commands.push(command),
                 None => {
-                    let why = format!("{}: the path is not text that a scene can hold", import.path.display());
+                    let why = format!(
+                        "{}: this path is not valid UTF-8, so a scene file cannot name it",
+                        import.path.display()
+                    );
                     commands.push(Command::Refuse { about: why.clone(), why });
                 }
             }

@@ -24,7 +24,7 @@ use values::{finite, rgb_of, rgb_value, table};
 const NAMES: f32 = 96.0;
 
 /// What a field of many numbers wants.
-const NUMBERS: &str = "numbers with commas between them";
+const NUMBERS: &str = "numbers separated by commas";
 
 /// A name and a field beside it.
 pub fn row<R>(ui: &mut Ui, label: &str, help: &str, marked: bool, field: impl FnOnce(&mut Ui) -> R) -> R {
@@ -106,7 +106,9 @@ impl Field<'_> {
             (Some(what), None) => self.left_open(ui, what, commands),
             (open, value) => {
                 self.field(ui, value, commands);
-                if open.is_some() && ui.small_button("x").hint("Leave it open again.").clicked() {
+                if open.is_some()
+                    && ui.small_button("x").hint("Clears the value, so that the default applies.").clicked()
+                {
                     self.set(commands, None, Phase::Done);
                 }
             }
@@ -214,7 +216,7 @@ impl Field<'_> {
                         true => word.parse().ok().map(Value::Integer),
                         false => finite(word).map(Value::Float),
                     };
-                    let wanted = if whole { "whole numbers with commas between them" } else { NUMBERS };
+                    let wanted = if whole { "whole numbers separated by commas" } else { NUMBERS };
                     words.map(number).collect::<Option<Vec<_>>>().map(Value::Array).ok_or(wanted)
                 });
             }
@@ -293,9 +295,9 @@ impl Field<'_> {
         let now = match value {
             Some(Value::String(word)) => word.as_str(),
             Some(Value::Table(table)) if table.contains_key("melanin") => "by pigment",
-            _ => "as it looks",
+            _ => "by RGB",
         };
-        let words = [&NAMES[..], &["by pigment", "as it looks"]].concat();
+        let words = [&NAMES[..], &["by pigment", "by RGB"]].concat();
         // Said in other words it is still the same colour.
         let look = || {
             let look = value_at(self.settings, "picture.hair").cloned();
@@ -310,7 +312,7 @@ impl Field<'_> {
                     .map(|n| Value::Float((f64::from(n) * 1e4).round() / 1e4));
                 table([("melanin", table([("eumelanin", eumelanin), ("pheomelanin", pheomelanin)]))])
             }
-            "as it looks" => table([("rgb", rgb_value(colour::of_mass(&look()).map(srgb_from_linear)))]),
+            "by RGB" => table([("rgb", rgb_value(colour::of_mass(&look()).map(srgb_from_linear)))]),
             name => Value::String(name.to_owned()),
         });
         let Some(Value::Table(inner)) = value else { return };
@@ -405,7 +407,7 @@ impl Field<'_> {
         let response = name(ui.add(edit), self);
         let response = match (now, instead) {
             ("", "") => response,
-            ("", _) => response.hint(format!("Left open: {instead}. Type to give it a value of its own.")),
+            ("", _) => response.hint(format!("Not set: {instead}. Type a value to set it.")),
             _ => response.hint(now),
         };
         if response.lost_focus() {
@@ -420,7 +422,7 @@ impl Field<'_> {
                 _ if text.trim().is_empty() && self.setting.open.is_some() => self.set(commands, None, Phase::Done),
                 Ok(value) => self.set(commands, Some(value), Phase::Done),
                 Err(wanted) => {
-                    let why = format!("{}: \"{text}\" is not taken: it must be {wanted}", self.key);
+                    let why = format!("{}: \"{text}\" is not accepted: it must be {wanted}", self.key);
                     commands.push(Command::Refuse { about: self.key.clone(), why });
                 }
             }
@@ -455,7 +457,7 @@ impl Field<'_> {
                     let response = field.ui(ui, &mut frame, commands);
                     self.sent(&response, commands, changed(frame, factor));
                     let field = Number { step: 0.01, ..Number::of(&what[1]) };
-                    let response = field.ui(ui, &mut factor, commands).hint("Part of the strength.");
+                    let response = field.ui(ui, &mut factor, commands).hint("Factor on the strength.");
                     self.sent(&response, commands, changed(frame, factor));
                     if ui.small_button("x").clicked() {
                         let mut keys = keys.clone();

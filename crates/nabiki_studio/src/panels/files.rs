@@ -42,7 +42,7 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
             let listed = chooser.listed();
             if listed.is_empty() {
                 ui.label(theme::faint(match chooser.has_folder() {
-                    true => "Nothing here that could be chosen.",
+                    true => "There is no matching file here.",
                     false => "There is no such folder.",
                 }));
             }
@@ -66,12 +66,12 @@ pub fn ui(ui: &mut Ui, session: &Session, chooser: &Chooser, commands: &mut Comm
     };
     ui.horizontal(|ui| {
         if !session.has_desktop() {
-            let words = "This desktop has no dialog: type the path, or click.";
-            let why = "On Linux it takes an XDG desktop portal with a file chooser, or zenity.";
+            let words = "This desktop has no file dialog. Type the path, or click in the list.";
+            let why = "On Linux, install an XDG desktop portal with a file chooser, or zenity.";
             ui.label(theme::faint(words)).hint(why);
         } else if session.asks_desktop() {
-            ui.label(theme::faint("The dialog of your desktop is asked..."));
-        } else if ui.button("System dialog...").hint("The dialog of your desktop, if it has one.").clicked() {
+            ui.label(theme::faint("Waiting for the dialog of your desktop..."));
+        } else if ui.button("System dialog...").hint("Opens the file dialog of your desktop.").clicked() {
             commands.push(Command::AskDesktop);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -25,8 +25,7 @@ const NAMES: f32 = 60.0;
 const MOST: f64 = 1e6;
 
 /// What the axes are.
-const AXES: &str =
-    "x: where the face looks, y: up, z: to the character's right. Without a unit: only its effect counts.";
+const AXES: &str = "x points where the face looks, y up, z to the character's right. The force has no physical unit.";
 
 /// Draws them into so much height, or more where that is too little.
 pub fn ui(ui: &mut Ui, session: &Session, height: f32, commands: &mut Commands) {
@@ -60,7 +59,7 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
     let keys = &document.scene().field.force;
     let frames = timeline::frames(keys, j);
     ui.label(format!("Interval {} of {}", j + 1, keys.len()));
-    row_of(ui, NAMES, "Frames", "First and last frame that feel this vector.", false, |ui| {
+    row_of(ui, NAMES, "Frames", "The first and last frame with this vector.", false, |ui| {
         ui.spacing_mut().interact_size.x = 46.0;
         ui.label(theme::faint(format!("{} to", frames.start())));
         let mut through = f64::from(*frames.end());
@@ -93,7 +92,7 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
         });
     });
     if let Some(speed) = keys[j].speed {
-        row_of(ui, NAMES, "Speed", "How fast the air goes; its direction stays.", false, |ui| {
+        row_of(ui, NAMES, "Speed", "The speed of the air. The direction stays the same.", false, |ui| {
             let mut number = f64::from(speed.number);
             ui.spacing_mut().interact_size.x = 64.0;
             let what = "Speed of the interval";
@@ -108,7 +107,7 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
     }
     // That of a speed is what it comes to; another one takes the place of the speed.
     let strength = session.strengths()[j].vector;
-    row_of(ui, NAMES, "Strength", "|F|: its direction stays.", false, |ui| {
+    row_of(ui, NAMES, "Strength", "|F|. The direction stays the same.", false, |ui| {
         let mut length = f64::from(strength.length());
         ui.spacing_mut().interact_size.x = 64.0;
         let what = "Strength of the interval";
@@ -124,10 +123,10 @@ fn one(ui: &mut Ui, session: &Session, j: usize, commands: &mut Commands) {
     if let Some(swing) = session.swings().and_then(|swings| swings.rows.get(j)).map(|row| row.swing) {
         let help = match swing {
             Swing::Segments(_) => {
-                "Frames that a swing takes at the root, in the middle and at the tip, as the paper advises to look at when a \
-                 force is chosen: four times the force halves it."
+                "How many frames a swing takes at the root, in the middle and at the tip. Four times the force halves them. \
+                 The paper advises to check this when you choose a force."
             }
-            Swing::Strand(_) => "Frames that a swing takes about the wind and the weight together.",
+            Swing::Strand(_) => "How many frames the hair takes to swing under wind and weight together.",
         };
         row_of(ui, NAMES, "Swing", help, false, |ui| {
             let words = |&frames: &f64| if frames.is_finite() { format!("{frames:.0}") } else { "-".to_owned() };
@@ -156,8 +155,8 @@ fn underline(ui: &Ui, response: &egui::Response, axis: usize) {
 
 fn none(ui: &mut Ui, intervals: usize) {
     let words = match intervals {
-        0 => "There is no wind. Add an interval to have some.",
-        _ => "Click an interval to see its vector, or drag a border between two.",
+        0 => "There is no wind. Add an interval first.",
+        _ => "Click an interval to see its vector, or drag the border between two.",
     };
     ui.add_space(4.0);
     ui.add(egui::Label::new(theme::faint(words)).wrap());

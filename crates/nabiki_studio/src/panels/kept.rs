@@ -22,9 +22,9 @@ pub fn ui(ctx: &egui::Context, view: Rect, differences: &[Difference]) {
         let frame = egui::Frame::new().fill(Color32::from_black_alpha(170)).corner_radius(6.0);
         frame.inner_margin(egui::Margin::same(10)).show(ui, |ui| {
             ui.set_max_width(WIDTH.min(view.width() - 2.0 * MARGIN - 20.0).max(60.0));
-            ui.label(RichText::new("The take that is kept").color(theme::ACCENT).strong());
+            ui.label(RichText::new("Kept take").color(theme::ACCENT).strong());
             if differences.is_empty() {
-                ui.label("It is as the scene is.");
+                ui.label("It is the same as the scene.");
             }
             for Difference { name, kept, now } in differences.iter().take(MOST) {
                 ui.add(egui::Label::new(theme::faint(name)).truncate());

@@ -13,16 +13,16 @@ pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     let name = broken.path.file_name().unwrap_or_default().to_string_lossy();
     let row = egui::vec2(ui.available_width(), 24.0);
     ui.allocate_ui_with_layout(row, egui::Layout::right_to_left(egui::Align::Center), |ui| {
-        if ui.button("Leave it").hint("Back to the scene that was open.").clicked() {
+        if ui.button("Close the text").hint("Goes back to the scene that was open.").clicked() {
             commands.push(Command::LeaveBroken);
         }
         let mended = broken.error.is_none();
-        let button = ui.add_enabled(mended, egui::Button::new("Open as mended"));
-        if button.hint("Opens the text below; the file stays as it is until you save.").clicked() {
+        let button = ui.add_enabled(mended, egui::Button::new("Open the fixed text"));
+        if button.hint("Opens the text below. The file changes only when you save.").clicked() {
             commands.push(Command::UseMended);
         }
         ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-            ui.add(egui::Label::new(format!("{name} cannot be read as it is")).truncate());
+            ui.add(egui::Label::new(format!("{name} has an error")).truncate());
         });
     });
     match &broken.error {
@@ -30,7 +30,7 @@ pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             let text = egui::RichText::new(error.to_string()).color(theme::WRONG);
             ui.add(egui::Label::new(text).wrap().selectable(true));
         }
-        None => drop(ui.label(egui::RichText::new("Nothing is wrong any more.").color(theme::GOOD))),
+        None => drop(ui.label(egui::RichText::new("No errors are left.").color(theme::GOOD))),
     }
     ui.add_space(4.0);
     text(ui, broken, commands);

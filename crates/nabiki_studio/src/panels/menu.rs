@@ -29,7 +29,7 @@ pub fn ui(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             let text = egui::RichText::new(format!("{mark}{}", document.name())).color(theme::TEXT);
             let path = document.path().unwrap_or(document.scene().file()).display().to_string();
             ui.add(egui::Label::new(text).truncate().sense(egui::Sense::hover())).hint(if document.is_dirty() {
-                format!("{path}\nIt has changes that are not saved.")
+                format!("{path}\nIt has unsaved changes.")
             } else {
                 path
             });
@@ -92,7 +92,7 @@ fn recent(ui: &mut Ui, session: &Session, commands: &mut Commands) {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 let folder = path.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
                 let there = path.exists();
-                let folder = if there { folder } else { format!("{folder} (not there)") };
+                let folder = if there { folder } else { format!("{folder} (missing)") };
                 let button = egui::Button::new(name).right_text(theme::faint(folder)).truncate();
                 if ui.add_enabled(there, button).clicked() {
                     commands.push(Command::Open(path.clone()));

@@ -126,7 +126,7 @@ impl<'a> Number<'a> {
     }
 
     fn refusal(&self, text: &str) -> String {
-        format!("{}: \"{text}\" is not taken: {}", self.what, self.wanted())
+        format!("{}: \"{text}\" is not accepted: {}", self.what, self.wanted())
     }
 
     fn wanted(&self) -> String {
@@ -165,7 +165,7 @@ mod tests {
         assert_eq!(any.read("\u{2212}2.5", 0.0), Some(-2.5));
         assert_eq!(
             whole.refusal("-5"),
-            "hair.strands: \"-5\" is not taken: it must be a whole number from 1 to 5000000"
+            "hair.strands: \"-5\" is not accepted: it must be a whole number from 1 to 5000000"
         );
         assert!(!any.wanted().contains("from"));
         let upto = Number { most: "all", ..whole };

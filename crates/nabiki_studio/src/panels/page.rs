@@ -26,7 +26,7 @@ pub fn ui(ui: &mut Ui, session: &Session, page: Page, commands: &mut Commands) {
     let scene = document.scene();
     let has_effect = |when: When| when.holds(scene);
     if let Some(broken) = session.broken() {
-        let words = format!("{} is being mended. The scene behind it stays as it is.", broken.name());
+        let words = format!("{} has an error and is open as text. The scene behind it stays unchanged.", broken.name());
         ui.add(egui::Label::new(theme::faint(words)).wrap());
         ui.add_space(4.0);
         ui.disable();

@@ -63,7 +63,7 @@ fn bars(ui: &mut Ui, session: &Session, commands: &mut Commands) {
     }
     for (n, word) in session.words().iter().enumerate() {
         bar(ui, if word.wrong { theme::WRONG } else { theme::GOOD }, |ui| {
-            if ui.small_button("x").hint("Take it away.").clicked() {
+            if ui.small_button("x").hint("Dismisses this message.").clicked() {
                 commands.push(Command::Heard(n));
             }
             ui.add(egui::Label::new(&word.text).wrap().selectable(true));
@@ -109,7 +109,7 @@ fn task(ui: &mut Ui, n: usize, task: &Task, commands: &mut Commands) {
             ui.add(egui::Label::new(theme::faint(place.to_string())).truncate());
         }
         Some(ended) => {
-            if ui.small_button("x").hint("Take it away.").clicked() {
+            if ui.small_button("x").hint("Dismisses this message.").clicked() {
                 commands.push(Command::Dismiss(n));
             }
             let text = match ended {
@@ -117,7 +117,7 @@ fn task(ui: &mut Ui, n: usize, task: &Task, commands: &mut Commands) {
                     let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
                     format!("{kind}: wrote {}", files.join(", "))
                 }
-                Ended::Cancelled => format!("{kind}: cancelled, nothing was left"),
+                Ended::Cancelled => format!("{kind}: cancelled, no files were left"),
                 Ended::Failed(why) => format!("{kind}: {why}"),
             };
             let ink = if matches!(ended, Ended::Failed(_)) { theme::WRONG } else { theme::TEXT };
@@ -140,7 +140,7 @@ pub fn line(ui: &mut Ui, session: &Session, fps: f32, commands: &mut Commands) {
         ui.separator();
         let took = session.took().as_secs_f64() * 1000.0;
         let text = format!("{} frames in {}", take.frames(), time_short(took));
-        ui.label(theme::faint(text)).hint("How long the last touch took, for the motion of all frames.");
+        ui.label(theme::faint(text)).hint("How long it took to move all frames after the last change.");
         if session.is_moving() {
             // Nothing that turns: it would have the window drawn all the while, by the cores that move the hair.
             ui.label(theme::faint("moving..."));
@@ -148,7 +148,7 @@ pub fn line(ui: &mut Ui, session: &Session, fps: f32, commands: &mut Commands) {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.add_space(8.0);
             if session.play.is_playing() {
-                ui.label(theme::faint(format!("{fps:.0} pictures a second")));
+                ui.label(theme::faint(format!("{fps:.0} fps")));
             } else if ui.add(egui::Label::new(theme::faint("F1 keys")).sense(egui::Sense::click())).clicked() {
                 commands.push(Command::Show(Box::new(Dialog::Keys)));
             }
@@ -165,9 +165,9 @@ fn strands(ui: &mut Ui, session: &Session, take: &Take, commands: &mut Commands)
     ui.spacing_mut().slider_width = 110.0;
     let slider = egui::Slider::new(&mut strands, FEWEST..=most).logarithmic(true).show_value(false);
     let help = format!(
-        "Strands that are shown. Up to {TOUCHED} move with every touch; more follow when the hand rests, and all move as \
-         they do among all others. At the right end: {}.",
-        if most < whole { format!("{most}, as many as there is room for") } else { format!("all {whole}") }
+        "How many strands the view shows. Up to {TOUCHED} move with every change; more follow when you pause. Each moves \
+         exactly as it does among all strands. At the right end: {}.",
+        if most < whole { format!("{most}, as many as memory allows") } else { format!("all {whole}") }
     );
     let response = ui.add(slider).hint(help).accessible_name("Strands shown");
     if response.changed() {
@@ -181,10 +181,10 @@ fn strands(ui: &mut Ui, session: &Session, take: &Take, commands: &mut Commands)
             let percent = 100.0 * part;
             match stage {
                 Stage::Building if take.built.groom.imported.is_some() => {
-                    format!("{shown} of {wanted}, the others are read")
+                    format!("{shown} of {wanted}, reading the others")
                 }
-                Stage::Building => format!("{shown} of {wanted}, the others grow: {percent:.0} %"),
-                Stage::Moving => format!("{shown} of {wanted}, the others are moved: {percent:.0} %"),
+                Stage::Building => format!("{shown} of {wanted}, growing the others: {percent:.0} %"),
+                Stage::Moving => format!("{shown} of {wanted}, moving the others: {percent:.0} %"),
             }
         }
         None => all,

@@ -183,12 +183,15 @@ fn playing(ui: &mut Ui, session: &Session, commands: &mut Commands) {
             }
         }
     });
-    response.response.hint(format!("Of the scene's own {rate} frames a second.")).accessible_name("Speed");
+    response
+        .response
+        .hint(format!("Playback speed, relative to the scene's {rate} frames per second."))
+        .accessible_name("Speed");
     ui.add_space(4.0);
     let ending = match session.play.ending {
         Ending::Loop => "Loop",
         Ending::Stop => "Stop",
-        Ending::Swing => "Swing",
+        Ending::Swing => "Ping-pong",
     };
     if ui.button(ending).hint("What happens after the last frame (L).").clicked() {
         commands.push(Command::Act(Action::Ending));
@@ -302,13 +305,13 @@ fn wind_name(ui: &mut Ui, row: Rect, ease: Ease, commands: &mut Commands) {
     let below = Rect::from_min_max(name.min + vec2(2.0, 20.0), name.max - vec2(4.0, 0.0));
     let mut below = ui.new_child(egui::UiBuilder::new().max_rect(below));
     below.spacing_mut().item_spacing.y = 1.0;
-    below.label(theme::faint("All ease").size(10.5));
+    below.label(theme::faint("Ease (all)").size(10.5));
     let word = match ease {
         Ease::Stepped => "stepped",
         Ease::Linear => "linear",
         Ease::Smooth => "smooth",
     };
-    let help = "How one vector leads to the next, in all intervals (E): stepped, linear, smooth.";
+    let help = "How each vector leads to the next, in all intervals (E): stepped, linear or smooth.";
     let button = below.small_button(word).hint(help);
     if button.accessible_name("Ease of all intervals").clicked() {
         commands.push(Command::Act(Action::Ease));

@@ -13,11 +13,11 @@ const HEIGHT: f32 = 260.0;
 const MARGIN: f32 = 14.0;
 
 const ALL: &[(&str, &str)] = &[
-    ("Space", "plays: the wind is the intervals below."),
-    ("Drag", "a border between two of them, or the arrow by the head: all frames move anew."),
-    ("Pull", "the hair itself, at a later frame: the wind that does it is found."),
-    ("Right", "cut, curl, stiffness, colour."),
-    ("Ctrl+Z", "takes back anything. F1 lists the keys."),
+    ("Space", "plays. The intervals below are the wind."),
+    ("Drag", "a border between two intervals, or the arrow over the head. All frames follow."),
+    ("Pull", "the hair itself, at a later frame. The studio finds the wind for it."),
+    ("Pages", "at the right change cut, curl, stiffness and colour."),
+    ("Ctrl+Z", "undoes anything. F1 lists the keys."),
 ];
 const FEW: &[(&str, &str)] =
     &[("Space", "plays."), ("Drag", "the arrow, or the wind below."), ("F1", "lists the keys.")];
@@ -37,7 +37,7 @@ pub fn ui(ctx: &egui::Context, view: Rect, side: Align, room: f32) {
         frame.inner_margin(egui::Margin::same(12)).show(ui, |ui| {
             ui.set_width(width - 24.0);
             if !is_small {
-                ui.add(egui::Label::new(egui::RichText::new("Hair goes where you want it").strong()).wrap());
+                ui.add(egui::Label::new(egui::RichText::new("First steps").strong()).wrap());
             }
             for (keys, text) in lines {
                 let mut job = egui::text::LayoutJob::default();

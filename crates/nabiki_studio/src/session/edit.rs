@@ -29,13 +29,13 @@ pub(super) const CHANGES: [Action; 11] = [
 pub(super) const BEHIND_TEXT: &str = "the scene behind a text";
 
 /// How it is said that the contact sheet has fewer frames.
-const SHEET_LOST: &str = "the contact sheet goes without frames ";
+const SHEET_LOST: &str = "the contact sheet loses frames ";
 
 impl Session {
     /// Whether a text is being mended, behind which the scene is left alone; says so.
     pub(super) fn is_behind_text(&mut self) -> bool {
         let Some(broken) = &self.broken else { return false };
-        let text = format!("{}: mend it or leave it first; the scene behind it stays as it is", broken.name());
+        let text = format!("{}: fix or close this text first; the scene behind it stays unchanged", broken.name());
         self.refuse(BEHIND_TEXT, text);
         true
     }
@@ -122,8 +122,8 @@ impl Session {
         self.words.retain(|word| !word.text.starts_with(SHEET_LOST));
         if !lost.is_empty() {
             let list = |frames: &[u32]| frames.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-            let instead = instead.map(|frames| format!("; it has {} instead", list(&frames))).unwrap_or_default();
-            self.say(format!("{SHEET_LOST}{}, which the motion does not reach any more{instead}", list(&lost)), false);
+            let instead = instead.map(|frames| format!("; it gets {} instead", list(&frames))).unwrap_or_default();
+            self.say(format!("{SHEET_LOST}{}, which are beyond the end of the motion{instead}", list(&lost)), false);
         }
     }
 
@@ -186,7 +186,7 @@ impl Session {
                     self.edit_intervals("Join", joined, vec![at]);
                     self.accept("Join");
                 }
-                None => self.refuse("Join", "choose two intervals or more that lie beside each other, to join them"),
+                None => self.refuse("Join", "select two or more adjacent intervals to join them"),
             },
             Action::Ease => self.next_ease(),
             Action::NextBorder => {

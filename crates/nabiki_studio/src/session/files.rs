@@ -163,7 +163,7 @@ impl Session {
             return;
         };
         if self.document.is_none() {
-            self.say(format!("{}: open a scene first, which it can go into", path.display()), true);
+            self.say(format!("{}: open a scene first, then drop this file on it", path.display()), true);
             return;
         }
         let empty = String::new;
@@ -187,7 +187,8 @@ impl Session {
         let wake = self.wake.clone();
         match Asked::desktop(chooser.clone(), move || wake.0()) {
             Ok(asked) => self.desktop = Some(asked),
-            Err(e) => self.say_of_window(format!("the desktop cannot be asked: {e}; type the path"), true),
+            Err(e) => self
+                .say_of_window(format!("the dialog of the desktop cannot be opened: {e}; type the path instead"), true),
         }
     }
 
@@ -317,12 +318,15 @@ impl Session {
             }
             Some(true) => {
                 self.said_changed = true;
-                let text = format!("{}: another program has changed it; saving will ask which to keep", path.display());
+                let text = format!(
+                    "{}: another program has changed this file; Save asks which version to keep",
+                    path.display()
+                );
                 self.say(text, true);
             }
             None => {
                 self.said_changed = true;
-                self.say(format!("{}: it is no longer there; saving writes it again", path.display()), true);
+                self.say(format!("{}: this file is no longer there; Save writes it again", path.display()), true);
             }
         }
     }

@@ -32,12 +32,12 @@ impl Sizes {
             None => format!("the hair keeps its length, {} at the longest", cm(now.hair)),
             Some(of_hair) => {
                 let why = if follows {
-                    "its file has no unit of its own and follows the head's; hair.unit gives it one"
+                    "its file has no unit and uses the head's; set hair.unit to change that"
                 } else {
-                    "its own settings have changed, too"
+                    "its settings have changed, too"
                 };
                 let (was, is) = (cm(self.hair), cm(now.hair));
-                format!("so is the hair: {}, from {was} to {is} at the longest ({why})", in_words(of_hair))
+                format!("the hair is {}, from {was} to {is} at the longest ({why})", in_words(of_hair))
             }
         };
         Some(format!("{head}; {hair}"))

@@ -14,7 +14,7 @@ use crate::take::Take;
 
 /// What is refused where no take is kept.
 const KEPT: &str = "the take that is kept";
-const NONE: &str = "no take is kept yet: K keeps the one that is seen";
+const NONE: &str = "no take is kept yet: press K to keep the one you see";
 
 /// A take that is kept.
 #[derive(Debug)]
@@ -87,7 +87,7 @@ impl Session {
         {
             self.kept = Some(KeptTake::new(take.clone()));
             self.accept(KEPT);
-            self.say("this take is kept: X shows it and the scene in turn", false);
+            self.say("this take is kept: press X to switch between it and the scene", false);
         }
     }
 
@@ -109,14 +109,14 @@ impl Session {
         self.receive();
         let Some(scene) = self.kept_scene() else { return self.refuse(KEPT, NONE) };
         if let Some(trouble) = &self.trouble {
-            let text = format!("the scene does not move as it is, so there is nothing to keep: {}", trouble.text);
+            let text = format!("this scene cannot be moved, so it cannot become the kept take: {}", trouble.text);
             return self.refuse(KEPT, text);
         }
         let kept = self.kept.take().map(|kept| kept.take);
         // Seen at once, before it is moved again.
         self.kept = std::mem::replace(&mut self.take, kept).map(KeptTake::new);
         self.accept(KEPT);
-        let (name, scene) = ("Exchange takes".to_owned(), Box::new(scene));
+        let (name, scene) = ("Swap takes".to_owned(), Box::new(scene));
         self.apply_to_document(Command::Scene { name, scene, phase: Phase::Done });
     }
 
@@ -141,14 +141,14 @@ impl Session {
                 motion.ask(kept.take.built.scene.clone(), strands, false);
                 kept.motion = Some(motion);
             }
-            Err(e) => self.say(format!("the take that is kept cannot be moved with {strands} strands: {e}"), true),
+            Err(e) => self.say(format!("the kept take cannot be moved with {strands} strands: {e}"), true),
         }
     }
 
     pub(super) fn receive_kept(&mut self, Moved { result, .. }: Moved) {
         match (result, &mut self.kept) {
             (Ok((take, _)), Some(kept)) => kept.take = take,
-            (Err(error), Some(_)) => self.say(format!("the take that is kept: {error}"), true),
+            (Err(error), Some(_)) => self.say(format!("the kept take: {error}"), true),
             (_, None) => {}
         }
     }

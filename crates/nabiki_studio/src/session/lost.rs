@@ -159,7 +159,7 @@ impl Session {
             Err(SaveError::Changed(path)) => self.dialog = Some(Dialog::Conflict(path, next)),
             Err(SaveError::NoFile) => self.ask_save_as(next),
             Err(e @ SaveError::Scene(_)) => {
-                self.say(format!("{NOT_SAVED}{e}; File > Save as writes it somewhere else"), true);
+                self.say(format!("{NOT_SAVED}{e}; use File > Save as to save it elsewhere"), true);
             }
         }
     }
@@ -262,7 +262,7 @@ impl Session {
         };
         let kept = scene.and(self.keep_text());
         if let Err(e) = &kept {
-            let text = format!("{e}: what is not saved cannot be kept in case this window is killed");
+            let text = format!("{e}: unsaved changes cannot be recovered if this window is killed");
             self.say_of_window(text, true);
         }
         kept.is_ok() && self.keeper.is_some()

@@ -237,10 +237,10 @@ fn nothing_changes_the_scene_behind_a_text_and_that_is_said() {
         let chooses = matches!(command, Command::Act(Action::SelectAll));
         session.apply(command.clone());
         assert_eq!(*session.document().unwrap().scene(), scene, "{command:?}");
-        assert_eq!(session.words().iter().any(|word| word.text.contains("mend it")), !chooses, "{command:?}");
+        assert_eq!(session.words().iter().any(|word| word.text.contains("fix or close")), !chooses, "{command:?}");
     }
     session.apply(Command::LeaveBroken);
-    assert!(session.words().iter().all(|word| !word.text.contains("mend it")), "it is not behind a text any more");
+    assert!(session.words().iter().all(|word| !word.text.contains("fix or close")), "it is not behind a text any more");
     edit(&mut session);
     assert!(session.document().unwrap().is_dirty());
 }

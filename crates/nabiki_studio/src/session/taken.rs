@@ -14,7 +14,7 @@ const SHORTEST: f32 = 0.01;
 const STEEPEST: f32 = 0.16;
 
 /// How it is said.
-pub(super) const TAKEN: &str = "Taken along: ";
+pub(super) const TAKEN: &str = "Also changed: ";
 
 /// What hair takes with another style: the segments of its length, and shorter ones for its curls. Returns it in words, each with why; shorter and straighter hair stays as it is, to the bit.
 pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<String> {
@@ -29,13 +29,13 @@ pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
     if key == "hair.style.curl.radius" {
         curl.pitch = curl_before.pitch.max(curl.radius);
         if curl.pitch != curl_before.pitch {
-            taken.push(format!("hair.style.curl.pitch is {} (a turn is no lower than its radius)", curl.pitch));
+            taken.push(format!("hair.style.curl.pitch is now {} (at least the radius)", curl.pitch));
         }
     }
     if key == "hair.style.curl.pitch" {
         curl.radius = curl_before.radius.min(curl.pitch);
         if curl.radius != curl_before.radius {
-            taken.push(format!("hair.style.curl.radius is {} (no wider than a turn is high)", curl.radius));
+            taken.push(format!("hair.style.curl.radius is now {} (at most the pitch)", curl.radius));
         }
     }
     if key != "hair.segment_length" {
@@ -44,9 +44,12 @@ pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
         scene.hair.segment_length = length;
         if length != length_before {
             // How stiff hair shall be is left to the hand.
-            let softer =
-                if scene.form == FormChoice::Free { "; free.stiffness counts in them, so hair is softer" } else { "" };
-            taken.push(format!("hair.segment_length is {length} cm (shorter ones draw the curls{softer})"));
+            let softer = if scene.form == FormChoice::Free {
+                "; free.stiffness counts segments, so the hair gets softer"
+            } else {
+                ""
+            };
+            taken.push(format!("hair.segment_length is now {length} cm (curls need shorter segments{softer})"));
         }
     }
     let had = grown_before.segments;
@@ -56,7 +59,7 @@ pub(super) fn by_hair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
     let takes = if takes <= MOST_SEGMENTS { takes as usize } else { had };
     grown.segments = had.max(takes);
     if takes > had {
-        taken.push(format!("hair.segments is {takes} (as many as the longest strand takes)"));
+        taken.push(format!("hair.segments is now {takes} (the longest strand needs that many)"));
     }
     taken
 }
@@ -71,16 +74,16 @@ pub(super) fn by_pair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
             clumps.wave_length = had.wave_length;
             if clumps.wave > STEEPEST * had.wave_length {
                 clumps.wave_length = (clumps.wave / STEEPEST * 1e3).ceil() / 1e3 + 1e-3;
-                let why = "a steeper wave would turn hair back";
-                taken.push(format!("hair.style.clumps.wave_length is {} ({why})", clumps.wave_length));
+                let why = "a steeper wave would fold the hair back";
+                taken.push(format!("hair.style.clumps.wave_length is now {} ({why})", clumps.wave_length));
             }
         }
         if key == "hair.style.clumps.wave_length" && clumps.wave_length > 0.0 {
             let most = STEEPEST * clumps.wave_length;
             clumps.wave = had.wave.min(most).min((most * 1e3).floor() / 1e3);
             if clumps.wave != had.wave {
-                let why = "a steeper wave would turn hair back";
-                taken.push(format!("hair.style.clumps.wave is {} ({why})", clumps.wave));
+                let why = "a steeper wave would fold the hair back";
+                taken.push(format!("hair.style.clumps.wave is now {} ({why})", clumps.wave));
             }
         }
     }
@@ -88,12 +91,12 @@ pub(super) fn by_pair(scene: &mut Scene, before: &Scene, key: &str) -> Vec<Strin
         if key == format!("{name}.friction") {
             *at_rest = had[1].max(*sliding);
             if *at_rest != had[1] {
-                taken.push(format!("{name}.static_friction is {at_rest} (no less than of hair that slides)"));
+                taken.push(format!("{name}.static_friction is now {at_rest} (at least the friction)"));
             }
         } else if key == format!("{name}.static_friction") {
             *sliding = had[0].min(*at_rest);
             if *sliding != had[0] {
-                taken.push(format!("{name}.friction is {sliding} (no more than of hair that rests)"));
+                taken.push(format!("{name}.friction is now {sliding} (at most the static friction)"));
             }
         }
     };

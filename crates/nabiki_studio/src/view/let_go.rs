@@ -213,7 +213,7 @@ pub fn why(stop: &Stop) -> String {
         Stop::Body(name) => format!("{name} is in the way"),
         Stop::Nail(_) => "a nail holds it".to_owned(),
         Stop::Force { strongest } => {
-            format!("it takes a total force above {strongest:.0}, the most that this hair can step")
+            format!("it needs a total force above {strongest:.0}, the limit for this hair")
         }
         Stop::Unknowns { frames: 1 } => "one frame of wind is too short".to_owned(),
         Stop::Unknowns { frames } => format!("no wind over these {frames} frames gets it there"),

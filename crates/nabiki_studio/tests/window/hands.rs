@@ -244,12 +244,12 @@ fn of_a_take_that_is_kept_a_hand_moves_the_camera_alone() {
     let before = camera(&window);
     window.press(Modifiers::NONE, Key::X);
     window.harness.step();
-    assert!(window.harness.query_by_label("The take that is kept").is_none(), "what is held is pulled in the scene");
+    assert!(window.harness.query_by_label("Kept take").is_none(), "what is held is pulled in the scene");
     assert!(window.pulled().is_some());
     window.button(start, false);
     window.press(Modifiers::NONE, Key::X);
     window.harness.step();
-    window.harness.get_by_label("The take that is kept");
+    window.harness.get_by_label("Kept take");
     let wind = window.session().document().unwrap().scene().field.force.clone();
     window.button(start, true);
     for n in 1..=10 {
@@ -263,7 +263,7 @@ fn of_a_take_that_is_kept_a_hand_moves_the_camera_alone() {
     assert_ne!(camera(&window), before);
     window.press(Modifiers::NONE, Key::X);
     window.harness.step();
-    assert!(window.harness.query_by_label("The take that is kept").is_none());
+    assert!(window.harness.query_by_label("Kept take").is_none());
     window.take_hold();
     assert!(window.pulled().is_some());
 }

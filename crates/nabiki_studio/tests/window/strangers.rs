@@ -246,7 +246,7 @@ fn the_palette_leads_to_a_setting() {
         ("curl radius", "Style", "Curl Radius"),
         ("hair.style.clumps.wave_length", "Style", "Clumps Wave length"),
         ("f_stop", "Picture", "Camera f-stop"),
-        ("settle", "Motion", "Shape and calm Settle: from root to tip"),
+        ("settle", "Motion", "Shape and settling Settle: from root to tip"),
     ] {
         let mut window = Window::open();
         window.press(Modifiers::COMMAND, Key::P);
@@ -287,7 +287,7 @@ fn a_colour_by_name_is_the_same_as_it_looks() {
         act(&mut window, set);
         let before = of(&window);
         window.click("Hair Colour");
-        window.click("as it looks");
+        window.click("by RGB");
         assert!(matches!(hair(&window).colour, nabiki_render::settings::HairColour::Rgb(_)));
         let after = of(&window);
         assert!((0..3).all(|c| (after[c] - before[c]).abs() < 2e-4 + 0.01 * before[c]), "{name}: {before:?} {after:?}");

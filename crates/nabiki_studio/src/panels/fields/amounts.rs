@@ -99,9 +99,9 @@ impl Field<'_> {
         let (label, hint, value) = match (unit, units) {
             (Some(_), _) => {
                 let default = schema::find(&self.key.as_str().into()).first().map(|setting| (setting.default)());
-                ("#", "As a number in the unit of the force, or in frames.", default.and_then(|it| as_value(&it)))
+                ("#", "A number in the unit of the force, or in frames.", default.and_then(|it| as_value(&it)))
             }
-            (None, [unit, ..]) => (*unit, "In a unit of the world.", Some(Amount::usual(unit).value())),
+            (None, [unit, ..]) => (*unit, "In a physical unit.", Some(Amount::usual(unit).value())),
             (None, []) => return,
         };
         if ui.small_button(label).hint(hint).clicked() {
@@ -129,7 +129,7 @@ impl Field<'_> {
                     (_, 0) => "from root to tip",
                     (0, _) => "at the root",
                     (i, last) if i == last => "at the tip",
-                    _ => "on the way",
+                    _ => "between root and tip",
                 };
                 let what = format!("{}, {place}", self.key);
                 let field = taken.field(&what, amounts[i]);
@@ -139,11 +139,11 @@ impl Field<'_> {
             }
             unit.into_iter().for_each(|(unit, _)| drop(ui.label(unit)));
             self.other_unit(ui, taken.units, of_world, commands);
-            if amounts.len() < 6 && ui.small_button("+").hint("One number more, toward the tip.").clicked() {
+            if amounts.len() < 6 && ui.small_button("+").hint("Adds a number toward the tip.").clicked() {
                 amounts.extend(amounts.last().copied());
                 self.set(commands, Some(wrap(&amounts)), Phase::Done);
             }
-            if amounts.len() > 1 && ui.small_button("-").hint("One number less.").clicked() {
+            if amounts.len() > 1 && ui.small_button("-").hint("Removes a number.").clicked() {
                 amounts.pop();
                 self.set(commands, Some(wrap(&amounts)), Phase::Done);
             }

@@ -61,9 +61,9 @@ pub fn dial(
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click_and_drag());
     let (name, help) = match seen {
         Seen::FromHerRight => {
-            ("Dial from the right", "From the character's right: she looks to the right. Drag the arrow.")
+            ("Dial from the right", "Seen from the character's right; she looks to the right. Drag the arrow.")
         }
-        Seen::FromAbove => ("Dial from above", "From above: she looks to the right. Drag the arrow."),
+        Seen::FromAbove => ("Dial from above", "Seen from above; she looks to the right. Drag the arrow."),
     };
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
     let (centre, radius) = (rect.center(), side / 2.0 - 3.0);
@@ -82,9 +82,9 @@ pub fn dial(
     paint(ui, &response, (centre, radius), vectors.iter().map(|vector| seen.flat(*vector) * scale));
     let help = match of.len() {
         1 => help.to_owned(),
-        _ => format!("{help} All turn to where it points, and keep their strengths."),
+        _ => format!("{help} All selected vectors turn there and keep their strengths."),
     };
-    response.hint(format!("{help}\nThe circle is {reach}."));
+    response.hint(format!("{help}\nThe radius of the circle is {reach}."));
     dragged
 }
 

@@ -44,7 +44,7 @@ pub fn ui(ui: &mut Ui, keys: &[ForceSettings], strengths: &[Keyframe], chosen: &
     ui.label(format!("{} of {} intervals", chosen.len(), keys.len()));
     let lengths = chosen.iter().map(|&j| f64::from(length(keys, j)));
     let shared = Shared::of(lengths);
-    let help = "How many frames each of them has; what comes after moves along.";
+    let help = "How many frames each selected interval has. Everything after it moves along.";
     row_of(ui, NAMES, "Frames", help, false, |ui| {
         let mut number = shared.number;
         ui.spacing_mut().interact_size.x = 46.0;
@@ -79,7 +79,7 @@ pub fn ui(ui: &mut Ui, keys: &[ForceSettings], strengths: &[Keyframe], chosen: &
             }
         });
     });
-    let help = "|F|: directions stay. Typed, it is that of all; dragged, all grow by the same part.";
+    let help = "|F|. Directions stay the same. A typed number applies to all; a drag scales all by the same factor.";
     row_of(ui, NAMES, "Strength", help, false, |ui| {
         let shared = Shared::of(chosen.iter().map(|&j| f64::from(strengths[j].vector.length())));
         let mut number = shared.number;

@@ -96,7 +96,7 @@ fn block(
     let [x, y, z] = vector.to_array();
     let force = keys[j].speed.map_or("Force".to_owned(), |speed| format!("{speed} along"));
     response.hint(format!(
-        "Frames {} to {}\n{force} {x}, {y}, {z}\n{}\n\nDrag to slide it, its borders to make it longer or shorter;\nwith Shift what comes after moves along.",
+        "Frames {} to {}\n{force} {x}, {y}, {z}\n{}\n\nDrag the block to move it in time, or a border to change its length.\nHold Shift to move everything after it along.",
         frames.start(),
         frames.end(),
         swings(session, j)

@@ -76,7 +76,7 @@ pub fn ui(
             ("Fan", "fan", false),
             ("Whirl", "vortex", false),
             ("Point", "point", false),
-            ("Motion of the head...", "head.motion", true),
+            ("Head motion...", "head.motion", true),
         ] {
             let there = value_at(settings, table);
             let group = crate::settings::Page::ALL
@@ -158,7 +158,9 @@ fn head(ui: &mut Ui, lane: Rect, scale: &Scale, take: &Take) {
     hint(
         ui,
         lane,
-        &format!("White: its turn about the vertical, within {most:.0} degrees. Green: its way, at most {far:.1} cm"),
+        &format!(
+            "White: turn about the vertical, up to {most:.0} degrees either way. Green: distance moved, up to {far:.1} cm"
+        ),
     );
 }
 
@@ -193,7 +195,7 @@ fn envelope(ui: &mut Ui, lane: Rect, scale: &Scale, session: &Session, table: &s
         keys.sort_by_key(|key| key.0);
         commands.push(set(&keys, Phase::Done));
     }
-    behind.hint("Its strength over time. A double click makes a key, a drag moves it, a click with the right button removes it.");
+    behind.hint("Its strength over time. Double-click to add a key, drag to move one, right-click to remove one.");
     let (first, last) = (keys.first().map_or(1.0, |key| key.1), keys.last().map_or(1.0, |key| key.1));
     let ends = (pos2(lane.left(), y(first)), pos2(lane.right(), y(last)));
     let way = std::iter::once(ends.0)
@@ -227,7 +229,7 @@ fn envelope(ui: &mut Ui, lane: Rect, scale: &Scale, session: &Session, table: &s
         let painter = ui.painter().with_clip_rect(lane.intersect(ui.clip_rect()));
         let diamond = [vec2(0.0, -4.5), vec2(4.5, 0.0), vec2(0.0, 4.5), vec2(-4.5, 0.0)].map(|way| at + way);
         painter.add(egui::Shape::convex_polygon(diamond.to_vec(), ink, Stroke::NONE));
-        response.hint(format!("Frame {frame}: {part} of the strength"));
+        response.hint(format!("Frame {frame}: {part} times the strength"));
     }
     if keys.is_empty() {
         let at = lane.left_center() + vec2(6.0, 0.0);
