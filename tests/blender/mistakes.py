@@ -67,7 +67,7 @@ def test_wrong_objects_are_refused(command, shared):
     flat = scenes.curves("Points", np.zeros((6, 3)), [0, 3, 6])
     flat.nabiki.head = bpy.data.objects["Head"]
     scenes.active(flat)
-    refused(simulate, '"Points"', "extent")
+    refused(simulate, '"Points"', "length 0")
 
 
 def test_other_kinds_of_curves_are_refused(command, shared):
@@ -163,7 +163,7 @@ def test_frames_and_winds_that_cannot_be_are_refused(command, shared):
     hair = plain()
     scene = bpy.context.scene
     scene.frame_start = scene.frame_end = 5
-    refused(simulate, "the frames are 5 to 5")
+    refused(simulate, "the frame range is 5 to 5")
     scene.frame_start, scene.frame_end = 1, 8
     scenes.interval(hair, 4, (0, 1, 0))
     refused(simulate, "Wind > Interval 2 ends before interval 1 does")
@@ -194,10 +194,10 @@ def test_caches_without_a_place_are_refused(command, shared):
     refused(bake, "save it", "Nabiki > Cache")
     folder = command.folder / "none"
     hair.nabiki.cache_path = str(folder / "a.usdc")
-    refused(bake, "there is no folder", "make it, or name another")
+    refused(bake, "there is no folder", "create it, or set another")
     assert not folder.exists()
     hair.nabiki.cache_path = str(command.folder / "a.obj")
-    refused(bake, ".usdc", "such a name")
+    refused(bake, ".usdc", "rename the cache")
     assert list(command.folder.iterdir()) == []
     # A file of somebody's own is not replaced, and neither is a folder.
     own, folder = command.folder / "groom.usdc", command.folder / "folder.usdc"
@@ -205,7 +205,7 @@ def test_caches_without_a_place_are_refused(command, shared):
     folder.mkdir()
     for path in [own, folder]:
         hair.nabiki.cache_path = str(path)
-        refused(bake, "is no cache of Nabiki")
+        refused(bake, "is not a Nabiki cache")
     assert own.read_bytes() == b"somebody's groom" and folder.is_dir()
 
 
@@ -230,14 +230,14 @@ def test_a_scene_that_is_refused_is_not_written(command, shared):
     hair.nabiki.intervals[0].vector = (0, 1e7, 0)
     write = bpy.ops.nabiki.write_scene
     refused(lambda: write(filepath=str(command.folder / "a.toml"), name="Hair"), "is too strong")
-    refused(lambda: write(filepath=str(command.folder / "a.txt"), name="Hair"), "no place for a scene")
+    refused(lambda: write(filepath=str(command.folder / "a.txt"), name="Hair"), "cannot hold a scene")
     assert list(command.folder.iterdir()) == []
 
 
 def test_points_and_names_of_any_kind(command, shared):
     hair = plain()
     hair.data.attributes["position"].data[7].vector.x = float("nan")
-    refused(simulate, "points that are no numbers")
+    refused(simulate, "points with invalid positions")
     # What objects are called is theirs to say.
     hair = plain()
     for thing, name in [(hair, 'Här "0" \\1'), (bpy.data.objects["Head"], "head.mesh [body[0].mesh] \\g<1>")]:
@@ -260,7 +260,7 @@ def test_wishes_that_are_none_are_refused(command, shared):
     refused(solve, "press Simulate")
     assert simulate() == {"FINISHED"}
     bpy.context.scene.frame_set(5)
-    refused(solve, "no curve of the preview was moved")
+    refused(solve, "you moved no curve of the preview")
     preview = hair.nabiki.preview
     points = scenes.positions(preview.data)
     points[scenes.POINTS - 1] += 0.02
@@ -271,7 +271,7 @@ def test_wishes_that_are_none_are_refused(command, shared):
     refused(solve, "settings have changed")
     hair.nabiki.gravity = 100
     bpy.context.scene.frame_set(1)
-    refused(solve, "frame 1 is none in which hair moves")
+    refused(solve, "the hair does not move in frame 1")
 
 
 def test_work_that_is_stopped_leaves_nothing(command, shared):

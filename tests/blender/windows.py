@@ -235,7 +235,7 @@ def test_esc_ends_it_and_leaves_nothing(command, shared):
                 assert in_window(jobs, operator, window, before) == {"CANCELLED"}
             finally:
                 jobs.SLICE = was
-            assert operator.reports == [({"INFO"}, "Cancelled: nothing was changed")]
+            assert operator.reports == [({"INFO"}, "Cancelled, nothing was changed")]
             assert bpy.data.objects.keys() == objects and not list(command.folder.iterdir())
             assert window.timers == 0 and jobs.running is None and not hair.hide_viewport
 
@@ -251,7 +251,7 @@ def test_a_second_button_waits_and_mistakes_are_lines(command, shared):
     jobs.running = operator
     try:
         other = pressed("NABIKI_OT_bake", hair)
-        assert in_window(jobs, other, window, []) == {"CANCELLED"} and "at work already" in other.reports[0][1]
+        assert in_window(jobs, other, window, []) == {"CANCELLED"} and "still working" in other.reports[0][1]
     finally:
         jobs.running = None
     # A wind that is found while somebody looks for another is stopped, too: its steps are those of the solver.

@@ -107,7 +107,7 @@ def test_force_fields_are_carried_over_by_the_table(command, shared):
     keys = [(key["frame"], round(key["factor"], 5)) for key in blower["envelope"]]
     assert keys == [(0, 0.0), (4, 1.0), (9, 1.0)], keys
     notes = " ".join(next(reversed(known.films.values())).notes)
-    assert '"Drag" is not carried over' in notes and '"Charge" is not carried over' in notes
+    assert '"Drag" is not used' in notes and '"Charge" is not used' in notes
 
 
 def pushed(kind, place, at, rotation, **settings):

@@ -23,23 +23,23 @@ def place(thing):
     """Where the cache of an object goes."""
     given = thing.nabiki.cache_path.strip()
     if not any(readable(ending) for ending in ENDINGS):
-        way_out = "take Blender from blender.org, or render the preview with all strands"
-        raise Mistake(f"this Blender was built without USD and Alembic, with which it would read baked hair: {way_out}")
+        way_out = "use Blender from blender.org, or render the preview with all strands"
+        raise Mistake(f"this Blender was built without USD and Alembic, so it cannot read baked hair: {way_out}")
     if not given:
         ending = next(ending for ending in ENDINGS if readable(ending))
         given = f"//{bpy.path.clean_name(thing.name)}_nabiki{ending}"
     if given.startswith("//") and not bpy.data.filepath:
-        raise Mistake("the .blend file has no place yet, and the cache goes beside it: save it, or give the cache a whole path in Nabiki > Cache")
+        raise Mistake("the .blend file is not saved yet, and the cache goes next to it: save it, or set an absolute path in Nabiki > Cache")
     path = Path(bpy.path.abspath(given))
     if path.suffix.lower() not in ENDINGS:
-        raise Mistake(f'"{path.name}" ends in none of {", ".join(ENDINGS)}: give the cache such a name')
+        raise Mistake(f'"{path.name}" ends in none of {", ".join(ENDINGS)}: rename the cache in Nabiki > Cache')
     if not readable(path.suffix.lower()):
         others = " or ".join(ending for ending in ENDINGS if readable(ending))
-        raise Mistake(f'this Blender was built without what reads "{path.name}": name a file with {others} in Nabiki > Cache')
+        raise Mistake(f'this Blender was built without support for "{path.name}": name a file with {others} in Nabiki > Cache')
     if not path.parent.is_dir():
-        raise Mistake(f'there is no folder "{path.parent}": make it, or name another in Nabiki > Cache')
+        raise Mistake(f'there is no folder "{path.parent}": create it, or set another one in Nabiki > Cache')
     if path.is_dir() or (path.exists() and not ours(path)):
-        raise Mistake(f'"{path.name}" is there already and is no cache of Nabiki: name another file in Nabiki > Cache')
+        raise Mistake(f'"{path.name}" exists and is not a Nabiki cache: name another file in Nabiki > Cache')
     return given, path
 
 

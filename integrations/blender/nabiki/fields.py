@@ -9,7 +9,7 @@ import numpy as np
 UNKNOWN = {
     "BOID": "Boid",
     "CHARGE": "Charge",
-    "DRAG": "Drag; what calms hair is Settings > Settle",
+    "DRAG": "Drag (to calm the hair, use Settings > Settle)",
     "FLUID_FLOW": "Fluid Flow",
     "GUIDE": "Curve Guide",
     "HARMONIC": "Harmonic",
@@ -72,13 +72,13 @@ class Effector:
         if field.type in {"WIND", "FORCE"} and field.falloff_type == "CONE":
             cone = min(max(field.radial_max, 1.0), 90.0) if field.use_radial_max else 90.0
         if field.type == "WIND" and cone is None and (field.falloff_power or field.use_max_distance):
-            notes.append("blows alike everywhere: its falloff is not carried over, but for that of a cone")
+            notes.append("blows equally everywhere: Nabiki uses its falloff only with a cone")
         if field.type == "VORTEX" and field.inflow:
-            notes.append("its inflow is not carried over")
+            notes.append("its inflow is not used")
         if field.type == "TURBULENCE" and (field.falloff_power or field.use_max_distance):
-            notes.append("swirls everywhere: its falloff is not carried over")
+            notes.append("swirls equally everywhere: its falloff is not used")
         if field.type in {"FORCE", "VORTEX"} and field.noise:
-            notes.append("its noise is not carried over")
+            notes.append("its noise is not used")
         return cls(thing.name, field.type, falloff, field.noise, field.seed, field.size, cone, notes, [now])
 
     def strengths(self):
@@ -91,7 +91,7 @@ class Effector:
 def _falloff(field):
     """The falloff of a force field, radius in Blender's unit."""
     if field.use_max_distance:
-        notes = ["its falloff power goes smoothly to 0 at the largest distance"] if field.falloff_power else []
+        notes = ["it falls smoothly to 0 at Max Distance, instead of by its falloff power"] if field.falloff_power else []
         return {"law": "smooth", "radius": max(field.distance_max, 1e-3)}, notes
     if not field.falloff_power:
         return {"law": "none", "radius": 1.0}, []
@@ -169,7 +169,7 @@ def settings(effectors, way, origin, unit_cm, scale):
         if effector.kind == "WIND" and effector.cone is None:
             continue
         if effector.moves():
-            notes.append(f'"{effector.name}": moves, and is taken where it is in the first frame; only a Wind may turn')
+            notes.append(f'"{effector.name}": moves: Nabiki uses its place in the first frame (only a Wind may turn)')
         if effector.cone is not None:
             name, entry = "fan", {"position": place, "direction": axis, "spread": effector.cone, **common}
         elif effector.kind == "FORCE":
@@ -182,5 +182,5 @@ def settings(effectors, way, origin, unit_cm, scale):
         strongest = max(swirls, key=lambda swirl: swirl[0])
         tables["turbulence"] = strongest[2]
         names["turbulence"] = f'the force field "{strongest[1].name}"'
-        notes += [f'"{s[1].name}": a scene has one Turbulence, and "{strongest[1].name}" is stronger' for s in swirls if s is not strongest]
+        notes += [f'"{s[1].name}": is not used: only the strongest Turbulence counts, "{strongest[1].name}"' for s in swirls if s is not strongest]
     return {name: table for name, table in tables.items() if table}, notes, names

@@ -59,10 +59,10 @@ def read(evaluated, to_world, origin, unit_cm):
             raise Mistake(f'"{name}" has {called} curves: in Edit Mode choose Curves > Set Curve Type > Catmull Rom or Poly')
     cyclic = data.attributes.get("cyclic")
     if cyclic is not None and attributes.values(cyclic).any():
-        raise Mistake(f'"{name}" has cyclic curves, and hair has a root and a tip: in Edit Mode choose Curves > Toggle Cyclic')
+        raise Mistake(f'"{name}" has cyclic curves, but hair needs a root and a tip: in Edit Mode choose Curves > Toggle Cyclic')
     local = attributes.points_of(data).astype(np.float64)
     if not np.isfinite(local).all():
-        raise Mistake(f'"{name}" has points that are no numbers: undo what made them, or delete their curves')
+        raise Mistake(f'"{name}" has points with invalid positions (NaN or infinite): undo the change, or delete these curves')
     world = local @ to_world[:3, :3].T + to_world[:3, 3] - origin
     starts = np.cumsum(counts) - counts
     kept = _apart(world * unit_cm, starts)
@@ -71,7 +71,7 @@ def read(evaluated, to_world, origin, unit_cm):
     whole = left >= 2
     kept &= whole[strand]
     if not whole.any():
-        raise Mistake(f'"{name}" has only curves without extent: give them two points apart at least')
+        raise Mistake(f'"{name}" has only curves of length 0: each needs at least two distinct points')
     offsets = np.concatenate([[0], np.cumsum(left[whole])])
     radii = attributes.values(data.attributes["radius"])[:, 0] if "radius" in data.attributes else np.full(len(world), DRAWN, np.float32)
     # A radius is not turned, so a scaled object scales it by the mean of its axes.

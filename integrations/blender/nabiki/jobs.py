@@ -85,7 +85,7 @@ class Working:
         if running is not None:
             if self.beside:
                 return {"CANCELLED"}
-            self.report({"ERROR"}, "Nabiki is at work already: wait for it, or press Esc")
+            self.report({"ERROR"}, "Nabiki is still working: wait, or press Esc")
             return {"CANCELLED"}
         running, self.unwanted = self, False
         self.generator = self.steps(context)
@@ -160,7 +160,7 @@ class Working:
         if self.beside and not isinstance(error, nabiki.Error):
             return {"CANCELLED"}
         if isinstance(error, (Cancelled, KeyboardInterrupt)):
-            self.report({"INFO"}, "Cancelled: nothing was changed")
+            self.report({"INFO"}, "Cancelled, nothing was changed")
         elif isinstance(error, nabiki.Error):
             self.report({"ERROR"}, sentence(scene_files.line(error, self.made)))
         elif isinstance(error, MemoryError):

@@ -41,7 +41,7 @@ def triangles(evaluated, what, group=""):
     if group:
         groups = evaluated.vertex_groups
         if group not in groups:
-            raise Mistake(f'{what} "{evaluated.name}" has no vertex group "{group}": pick one of its own, or none')
+            raise Mistake(f'{what} "{evaluated.name}" has no vertex group "{group}": pick one that it has, or none')
         number = groups[group].index
         within = np.array([any(g.group == number and g.weight > 0.5 for g in v.groups) for v in mesh.vertices], bool)
         faces = faces[within[faces].all(1)]
@@ -66,7 +66,7 @@ def rigid(first, now, origin, what):
     way = now @ np.linalg.inv(first)
     turn = nearest_turn(way[:3, :3])
     if np.abs(turn - way[:3, :3]).max() > RIGID:
-        raise Mistake(f"{what} changes its size or shape on its way, and only what is rigid is carried: remove the keyframes of its scale")
+        raise Mistake(f"{what} changes its size or shape over time, but Nabiki needs rigid motion: remove the keyframes of its scale")
     return turn, way[:3, :3] @ origin + way[:3, 3] - origin
 
 

@@ -15,8 +15,8 @@ LABELS = {
     "hair.file": "Hair",
     "hair.unit": "Scene Properties > Units > Unit Scale",
     "head.unit": "Scene Properties > Units > Unit Scale",
-    "head.origin": "the place of the head",
-    "hair.origin": "the place of the hair",
+    "head.origin": "the position of the head",
+    "hair.origin": "the position of the hair",
     "motion.frames": "the frame range",
 }
 

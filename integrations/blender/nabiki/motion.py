@@ -16,8 +16,8 @@ PREVIEW, BAKED = " Preview", " Baked"
 
 # How what is no hair becomes hair.
 WAYS_OUT = {
-    "CURVE": ": Object > Convert > Curves makes them of it",
-    "MESH": ": Convert to Curves, in the menu beside the list of Properties > Particles, makes them of particle hair",
+    "CURVE": ": use Object > Convert > Curves",
+    "MESH": ": for particle hair, use Convert to Curves in the menu next to the list of Properties > Particles",
 }
 
 
@@ -30,11 +30,11 @@ def chosen(context, name=""):
         thing = thing.nabiki.of
     if thing.type != "CURVES":
         kind = thing.bl_rna.properties["type"].enum_items[thing.type].name.lower()
-        raise Mistake(f'"{thing.name}" is a {kind}, and Nabiki moves hair curves (Add > Curve > Empty Hair){WAYS_OUT.get(thing.type, "")}')
+        raise Mistake(f'"{thing.name}" is a {kind}, but Nabiki needs hair curves (Add > Curve > Empty Hair){WAYS_OUT.get(thing.type, "")}')
     if thing.library is not None or thing.override_library is not None:
         raise Mistake(f'"{thing.name}" belongs to another .blend file: make it local (Object > Relations > Make Local)')
     if context.mode != "OBJECT":
-        raise Mistake("an object is being edited: leave its mode first (Tab)")
+        raise Mistake("an object is in Edit Mode or another mode: return to Object Mode first (Tab)")
     return thing
 
 
@@ -137,7 +137,7 @@ def refill(preview, sample, found):
     if found.fits(data):
         return
     if not hasattr(data, "remove_curves"):  # Blender 4.2
-        raise Mistake("other strands are to be seen: press Simulate")
+        raise Mistake("the number of strands has changed: press Simulate")
     data.remove_curves()
     hair_module.fill(data, sample.hair, found.strands, sample.hair.smooth)
     put_rest(data, sample, found)

@@ -18,13 +18,13 @@ FIRST_WIND = (-60.0, 0.0, 0.0)
 class Named:
     """An operator about one object of curves: the active one, unless a name is given."""
 
-    name: bpy.props.StringProperty(name="Hair", description="The object of curves. The active one if empty", options={"SKIP_SAVE", "HIDDEN"})
+    name: bpy.props.StringProperty(name="Hair", description="The curves object. If empty, the active one", options={"SKIP_SAVE", "HIDDEN"})
 
 
 class NABIKI_OT_simulate(jobs.Working, Named, bpy.types.Operator):
     bl_idname = "nabiki.simulate"
     bl_label = "Simulate"
-    bl_description = "Move some strands of the active hair through all frames, and show them as the time line is scrubbed"
+    bl_description = "Simulate a preview of the active hair in all frames. Scrub the timeline to see it"
     bl_options = {"REGISTER", "UNDO"}
 
     beside: bpy.props.BoolProperty(options={"SKIP_SAVE", "HIDDEN"})
@@ -38,7 +38,7 @@ class NABIKI_OT_simulate(jobs.Working, Named, bpy.types.Operator):
 class NABIKI_OT_solve(jobs.Working, Named, bpy.types.Operator):
     bl_idname = "nabiki.solve"
     bl_label = "Find the Wind"
-    bl_description = "Find the wind under which the preview's curves go, in this frame, where you have moved them"
+    bl_description = "Find the wind that brings the preview's curves to where you moved them in this frame"
     bl_options = {"REGISTER", "UNDO"}
 
     def steps(self, context):
@@ -48,7 +48,7 @@ class NABIKI_OT_solve(jobs.Working, Named, bpy.types.Operator):
 class NABIKI_OT_bake(jobs.Working, Named, bpy.types.Operator):
     bl_idname = "nabiki.bake"
     bl_label = "Bake"
-    bl_description = "Write all strands and frames into a file, and add the object that reads it, with motion blur"
+    bl_description = "Write all strands and frames to a file, and add an object that reads it, with motion blur"
     bl_options = {"REGISTER", "UNDO"}
 
     def steps(self, context):
@@ -58,7 +58,7 @@ class NABIKI_OT_bake(jobs.Working, Named, bpy.types.Operator):
 class NABIKI_OT_clear(Named, bpy.types.Operator):
     bl_idname = "nabiki.clear"
     bl_label = "Clear"
-    bl_description = "Remove the preview and the baked object, and show the hair as it was. Files stay"
+    bl_description = "Remove the preview and the baked object, and show the hair again. Files are kept"
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
@@ -90,7 +90,7 @@ class OfWinds:
 class NABIKI_OT_interval_add(OfWinds, bpy.types.Operator):
     bl_idname = "nabiki.interval_add"
     bl_label = "Add Wind"
-    bl_description = "Add a wind that begins where the last one ends. The first one blows against the face"
+    bl_description = "Add a wind that starts where the last one ends. The first one blows against the face"
 
     def change(self, scene, settings):
         before = settings.intervals[-1].through if len(settings.intervals) else max(scene.frame_start, 0)
@@ -104,7 +104,7 @@ class NABIKI_OT_interval_add(OfWinds, bpy.types.Operator):
 class NABIKI_OT_interval_remove(OfWinds, bpy.types.Operator):
     bl_idname = "nabiki.interval_remove"
     bl_label = "Remove Wind"
-    bl_description = "Remove the wind that is shown"
+    bl_description = "Remove the selected wind"
 
     @classmethod
     def poll(cls, context):
@@ -118,7 +118,7 @@ class NABIKI_OT_interval_remove(OfWinds, bpy.types.Operator):
 class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operator):
     bl_idname = "nabiki.write_scene"
     bl_label = "Write Scene"
-    bl_description = "Write hair, head, bodies and wind as a scene of the command nabiki, for a render farm or the studio"
+    bl_description = "Write hair, head, bodies and wind as a Nabiki scene, for the command line, a render farm or the studio"
     bl_options = {"REGISTER"}
 
     filename_ext = ".toml"
@@ -131,10 +131,10 @@ class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operato
         thing = motion.chosen(context, self.name)
         path = Path(bpy.path.abspath(self.filepath))
         if path.suffix != ".toml" or not path.parent.is_dir():
-            raise Mistake(f'"{path.name}" is no place for a scene: name a .toml file in a folder that is there')
+            raise Mistake(f'"{path.name}" cannot hold a scene: name a .toml file in an existing folder')
         folder = path.with_suffix("")
         if folder.exists() and not folder.is_dir():
-            raise Mistake(f'"{folder.name}" is a file, and the folder of the scene\'s files is called so: name the scene otherwise')
+            raise Mistake(f'"{folder.name}" is a file, but the scene needs a folder of that name: choose another name for the scene')
         sample = yield from motion.sampled(context, thing)
         plain = scene_files.values(thing.nabiki, sample.frames.start)
         with motion.folder() as place:

@@ -65,7 +65,7 @@ def standing(context, thing):
         return f"{len(film.strands)} strands, {len(film.frames)} frames", "INFO" if film.notes else "CHECKMARK"
     if settings.preview is not None:
         return "At rest: press Simulate", "INFO"
-    return ("Baked", "CHECKMARK") if settings.baked is not None else ("Nothing moves yet", "INFO")
+    return ("Baked", "CHECKMARK") if settings.baked is not None else ("Not simulated yet", "INFO")
 
 
 def notes(layout, context, thing):
@@ -100,7 +100,7 @@ class NABIKI_PT_main(Panel, bpy.types.Panel):
         column.prop(settings, "head")
         head = settings.head or thing.data.surface
         if head is not None and settings.head is None:
-            column.label(text=f"The surface: {head.name}")
+            column.label(text=f"Surface: {head.name}")
         if head is not None and head.type == "MESH":
             column.prop_search(settings, "head_group", head, "vertex_groups")
             armature = head.find_armature()
@@ -170,8 +170,8 @@ def switched(name, label, switch, *shown):
 
 
 NABIKI_PT_gusts = switched("NABIKI_PT_gusts", "Gusts", "use_gust", "gust_intensity", "gust_time_scale", "gust_seed")
-NABIKI_PT_flow = switched("NABIKI_PT_flow", "Flow Round the Head", "use_flow", "flow_thickness")
-NABIKI_PT_body_wind = switched("NABIKI_PT_body_wind", "Wind of the Motion", "use_body_wind", "body_wind_drag")
+NABIKI_PT_flow = switched("NABIKI_PT_flow", "Flow Around the Head", "use_flow", "flow_thickness")
+NABIKI_PT_body_wind = switched("NABIKI_PT_body_wind", "Wind from Motion", "use_body_wind", "body_wind_drag")
 
 
 class NABIKI_PT_settings(Part, bpy.types.Panel):

@@ -33,11 +33,11 @@ def is_mesh(self, thing):
 
 class NabikiInterval(bpy.types.PropertyGroup):
     through: IntProperty(
-        name="Last Frame", description="The last frame of the scene in which this wind blows", default=50, min=0, max=1048574, update=changed
+        name="Last Frame", description="The last scene frame in which this wind blows", default=50, min=0, max=1048574, update=changed
     )
     vector: FloatVectorProperty(
         name="Wind",
-        description="Where the wind pushes, along the axes of the world. 30 is a breeze, 100 a strong wind",
+        description="Direction and strength of the wind along the world axes. 30 is a breeze, 100 a strong wind",
         subtype="XYZ",
         size=3,
         default=(0.0, 0.0, 0.0),
@@ -57,58 +57,62 @@ FACING = [
     ("+x", "X", "The face looks along X of the world in the first frame"),
 ]
 
-SUBSTEPS = SETTINGS["free.substeps"]["description"] + ". 0: as many as weight and stiffness need"
+SUBSTEPS = SETTINGS["free.substeps"]["description"] + ". 0 uses as many as weight and stiffness need"
 
 
 class NabikiSettings(bpy.types.PropertyGroup):
     # What takes part.
     head: PointerProperty(
         name="Head",
-        description="The mesh that the hair grows on and keeps out of. Without one, the surface that the curves are attached to",
+        description="The mesh that the hair grows on and collides with. If empty, the surface that the curves are attached to",
         type=bpy.types.Object,
         poll=is_mesh,
         update=changed,
     )
     head_group: StringProperty(
-        name="Vertex Group", description="The part of the mesh that is the head, where it is more than a head. All of it if empty", update=changed
+        name="Vertex Group",
+        description="The part of the mesh that is the head, if the mesh is more than a head. If empty, all of the mesh",
+        update=changed,
     )
-    head_bone: StringProperty(name="Head Bone", description="The bone that carries the head. Without one, the mesh tells", update=changed)
-    facing: EnumProperty(name="Faces", description="Where the face looks in the first frame", items=FACING, default="-y", update=changed)
+    head_bone: StringProperty(name="Head Bone", description="The bone that carries the head. If empty, the motion of the mesh counts", update=changed)
+    facing: EnumProperty(
+        name="Faces", description="The direction in which the face looks in the first frame", items=FACING, default="-y", update=changed
+    )
     collision_collection: PointerProperty(
         name="Collision Collection",
-        description="Meshes that hair keeps out of, besides the head. Without one, all that have Collision in their Physics tab",
+        description="Meshes that the hair collides with, in addition to the head. If empty, all meshes with Collision in their Physics tab",
         type=bpy.types.Collection,
         update=changed,
     )
     effector_collection: PointerProperty(
         name="Effector Collection",
-        description="Force fields that are felt. Without one, all of the scene",
+        description="The force fields that act on the hair. If empty, all of the scene",
         type=bpy.types.Collection,
         update=changed,
     )
     # Frames.
-    use_frame_range: BoolProperty(name="Frame Range", description="Use other frames than those of the scene", default=False, update=changed)
+    use_frame_range: BoolProperty(name="Frame Range", description="Use another frame range than the scene's", default=False, update=changed)
     frame_start: IntProperty(name="Start", description="The frame in which the hair is at rest", default=1, min=0, max=1048574, update=changed)
     frame_end: IntProperty(name="End", description="The last frame of the motion", default=100, min=1, max=1048574, update=changed)
     # Wind.
     intervals: CollectionProperty(type=NabikiInterval)
-    active_interval: IntProperty(name="Interval", description="The interval that is shown", default=0)
+    active_interval: IntProperty(name="Interval", description="The selected wind", default=0)
     ease: EnumProperty(name="Ease", description=SETTINGS["wind.ease"]["description"], items=EASE, default="smooth", update=changed)
     strength_scale: FloatProperty(
         name="Strength",
-        description="What the strengths of Blender's force fields are multiplied by. 30 is a breeze for hair, 100 a strong wind",
+        description="Factor on the strengths of Blender's force fields. For hair, 30 is a breeze and 100 a strong wind",
         default=1.0,
         soft_min=0.0,
         soft_max=100.0,
         update=changed,
     )
-    use_gust: BoolProperty(name="Gusts", description="Let the wind rise and fall at random", default=False, update=changed)
+    use_gust: BoolProperty(name="Gusts", description="Make the wind rise and fall at random", default=False, update=changed)
     gust_intensity: FloatProperty(**declared("gust.intensity", soft_max=0.6))
     gust_time_scale: FloatProperty(**declared("gust.time_scale", min=0.01, soft_max=20.0))
     gust_seed: IntProperty(**declared("gust.seed"))
-    use_flow: BoolProperty(name="Flow Round the Head", description="Lead the wind round the head", default=False, update=changed)
+    use_flow: BoolProperty(name="Flow Around the Head", description="Make the wind flow around the head", default=False, update=changed)
     flow_thickness: FloatProperty(**declared("flow.thickness", name="Hair Thickness (cm)", default=1.5, soft_max=10.0))
-    use_body_wind: BoolProperty(name="Wind of the Motion", description="Let a head that moves make wind", default=False, update=changed)
+    use_body_wind: BoolProperty(name="Wind from Motion", description="Add the wind that a moving head makes", default=False, update=changed)
     body_wind_drag: FloatProperty(**declared("body_wind.drag", soft_max=2.0))
     # How hair answers.
     stiffness: FloatVectorProperty(**declared("free.stiffness", size=2, soft_max=40000.0, step=10000, precision=0))
@@ -117,7 +121,7 @@ class NabikiSettings(bpy.types.PropertyGroup):
     gravity: FloatProperty(**declared("free.gravity", soft_max=500.0))
     drag: FloatProperty(**declared("free.drag", soft_max=2.0))
     speed: FloatProperty(
-        name="Speed", description="How fast all of it goes: 1 is hair in slow motion", default=1.6, min=0.01, soft_max=4.0, update=changed
+        name="Speed", description="Speed of the hair's motion. 1 looks like slow motion", default=1.6, min=0.01, soft_max=4.0, update=changed
     )
     slow: FloatProperty(**declared("motion.slow", soft_max=10.0))
     # Of nabiki there are none below 1: 0 leaves the number open.
@@ -128,14 +132,14 @@ class NabikiSettings(bpy.types.PropertyGroup):
     friction: FloatProperty(**declared("contact.friction"))
     static_friction: FloatProperty(**declared("contact.static_friction"))
     use_neighbours: BoolProperty(
-        name="Hair Against Hair", description="Let strands push away and take along those beside them", default=False, update=changed
+        name="Hair Against Hair", description="Make strands push their neighbours away and take them along", default=False, update=changed
     )
     pressure: FloatProperty(**declared("neighbours.pressure", soft_max=200.0))
     cohesion: FloatProperty(**declared("neighbours.cohesion", soft_max=200.0))
     # What is shown and written.
     preview_strands: IntProperty(
         name="Strands",
-        description="How many strands the preview moves, spread evenly over the head. They move as they do among all",
+        description="How many strands the preview shows, spread evenly over the head. They move exactly as in the full hair",
         default=300,
         min=1,
         soft_max=20000,
@@ -143,7 +147,7 @@ class NabikiSettings(bpy.types.PropertyGroup):
     )
     cache_path: StringProperty(
         name="File",
-        description="Where the whole moving hair is written: .usdc, .usda or .abc. Empty: beside the .blend file",
+        description="The file for the baked hair: .usdc, .usda or .abc. If empty, next to the .blend file",
         subtype="FILE_PATH",
     )
     # What belongs to it in the scene.

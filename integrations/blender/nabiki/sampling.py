@@ -52,7 +52,7 @@ class Sample:
 def check_enabled(layer, thing):
     """Refuses what Blender does not evaluate, and what would therefore seem to stand still. The eye alone leaves it evaluated."""
     if thing.hide_viewport or not within(layer.layer_collection, thing):
-        raise Mistake(f'"{thing.name}" is disabled in the viewport, by itself or by its collection: enable it (the eye may stay shut)')
+        raise Mistake(f'"{thing.name}" is disabled in the viewport, directly or by its collection: enable it (the eye icon may stay off)')
 
 
 def within(collection, thing):
@@ -68,7 +68,7 @@ def head_of(thing):
     if head is None:
         raise Mistake(f'"{thing.name}" has no head: pick the mesh that it grows on in Nabiki > Head')
     if head.type != "MESH":
-        raise Mistake(f'the head "{head.name}" is no mesh: pick the mesh that the hair grows on')
+        raise Mistake(f'the head "{head.name}" is not a mesh: pick the mesh that the hair grows on')
     return head
 
 
@@ -159,9 +159,9 @@ def carrier(thing, head):
         return head, ""
     armature = head.find_armature() or (head.parent if head.parent and head.parent.type == "ARMATURE" else None)
     if armature is None:
-        raise Mistake(f'the head "{head.name}" has no armature, and Nabiki > Head Bone names "{bone}": clear it')
+        raise Mistake(f'the head "{head.name}" has no armature, but Nabiki > Head Bone is "{bone}": clear it')
     if bone not in armature.pose.bones:
-        raise Mistake(f'the armature "{armature.name}" has no bone "{bone}": pick one of its own in Nabiki > Head Bone')
+        raise Mistake(f'the armature "{armature.name}" has no bone "{bone}": pick one that it has in Nabiki > Head Bone')
     return armature, bone
 
 
@@ -175,7 +175,7 @@ def sample(context, thing):
     scene, settings = context.scene, thing.nabiki
     first, last = frame_range(scene, settings)
     if last <= first:
-        raise Mistake(f"the frames are {first} to {last}: motion needs two at least, so set a later end")
+        raise Mistake(f"the frame range is {first} to {last}, but motion needs at least two frames: set a later end")
     head = head_of(thing)
     frames, was = range(first, last + 1), (scene.frame_current, scene.frame_subframe)
     hidden = thing.hide_viewport
@@ -221,7 +221,7 @@ class Reader:
         own = thing.evaluated_get(graph)
         self.hair = hair_module.read(own, meshes.matrix(own.matrix_world), self.origin, unit(scene))
         if self.hair.left_out:
-            self.notes.append(f"{self.hair.left_out} curves without extent are left out")
+            self.notes.append(f"{self.hair.left_out} curves of length 0 are left out")
         self._check_roots()
         self.colliders = colliders(scene, thing)
         self.bodies = [self._body(other, graph) for other in self.colliders]
@@ -234,7 +234,7 @@ class Reader:
                 evaluated = other.evaluated_get(graph)
                 self.effectors.append(fields.Effector.of(evaluated, fields.Now.of(evaluated)))
             else:
-                self.notes.append(f'"{other.name}" is not carried over, being a {fields.UNKNOWN.get(kind, kind)}')
+                self.notes.append(f'"{other.name}" is not used: Nabiki has no {fields.UNKNOWN.get(kind, kind)}')
 
     def _check_roots(self):
         """Hair that does not grow on its head is another's, or somewhere else by mistake."""
@@ -255,7 +255,7 @@ class Reader:
         evaluated = other.evaluated_get(graph)
         to_world = meshes.matrix(evaluated.matrix_world)
         if meshes.bends(other):
-            self.notes.append(f'"{other.name}" bends: hair keeps out of the shape that it has in the first frame')
+            self.notes.append(f'"{other.name}" deforms: the hair collides with its shape of the first frame')
         points, faces = meshes.triangles(evaluated, "the body")
         placed = meshes.placed(points, faces, to_world, self.origin)
         return Body(other.name, *placed, [to_world], [(np.eye(3), np.zeros(3))], shape_of(points, faces))
@@ -275,11 +275,11 @@ class Reader:
         if self.bent:
             points = self._bent_vertices(graph)
             if len(points) != len(self.at_first):
-                raise Mistake(f'the head "{self.head.name}" changes its vertices from frame to frame: name its bone in Nabiki > Head Bone')
+                raise Mistake(f'the head "{self.head.name}" has another number of vertices in some frames: set its bone in Nabiki > Head Bone')
             turn, shift, left = meshes.fitted(self.at_first, points)
             size = np.ptp(self.at_first, axis=0).max()
             if left > 0.01 * size:
-                raise Mistake(f'the head "{self.head.name}" bends too much to be one rigid thing: pick its bone in Nabiki > Head Bone')
+                raise Mistake(f'the head "{self.head.name}" deforms too much for a rigid head: set its bone in Nabiki > Head Bone')
             same = (points == self.at_first).all()
             body.ways.append((np.eye(3), np.zeros(3)) if same else (turn, shift))
         else:

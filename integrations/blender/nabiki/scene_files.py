@@ -145,7 +145,7 @@ def build(made):
     half = 0.5 * (high - low)
     # As `nabiki new` draws it; what is flat is then refused for what it is.
     made.scene["head.ellipsoid"] = {"center": (0.5 * (low + high)).tolist(), "half_axes": np.maximum(half, half.max() / 3).tolist()}
-    made.notes.append("no skull was found in the head: the wind goes round its box")
+    made.notes.append("no skull was found in the head: the wind flows around its bounding box")
     return made.scene.simulate()
 
 
@@ -169,7 +169,7 @@ def _write_hair(file, hair):
     """A .hair file with segments and diameters."""
     segments = np.diff(hair.offsets) - 1
     if segments.max() > 65535:
-        raise Mistake(f"a curve has {segments.max() + 1} points, and hair has 65536 at most: give it fewer")
+        raise Mistake(f"a curve has {segments.max() + 1} points, but hair has at most 65536: use fewer points")
     header = struct.pack("<4sIIIIfffff88s", b"HAIR", len(segments), len(hair.points), 1 | 2 | 4, 0, 0, 0, 0, 0, 0, b"")
     thickness = (2 * hair.radii).astype("<f4")
     file.write_bytes(header + segments.astype("<u2").tobytes() + hair.points.astype("<f4").tobytes() + thickness.tobytes())

@@ -40,17 +40,17 @@ def solve(context, thing, operator):
     """Finds the wind under which hair goes where it was moved; yields how far it is and returns what to report."""
     scene, settings = context.scene, thing.nabiki
     if playing.preview_of(scene, thing) is None:
-        raise Mistake("nothing moves yet: press Simulate, go to a frame, and move curves of the preview there")
+        raise Mistake("there is no preview yet: press Simulate, go to a frame, and move curves of the preview there")
     found = playing.film_of(scene, thing)
     sample = playing.take(thing).sample
     if found is None or sample is None:
-        raise Mistake("settings have changed since the preview was computed: press Simulate, and move its curves again")
+        raise Mistake("settings have changed since the preview was simulated: press Simulate, and move its curves again")
     frame = scene.frame_current - sample.frames.start
     if not 0 < frame < len(sample.frames):
-        raise Mistake(f"frame {scene.frame_current} is none in which hair moves: go to one of {sample.frames.start + 1} to {sample.frames[-1]}")
+        raise Mistake(f"the hair does not move in frame {scene.frame_current}: go to a frame from {sample.frames.start + 1} to {sample.frames[-1]}")
     wishes = moved(scene, thing, sample, found)
     if not wishes:
-        raise Mistake("no curve of the preview was moved in this frame: move tips in Edit Mode, leave it, and press Find the Wind")
+        raise Mistake("you moved no curve of the preview in this frame: move tips in Edit Mode, leave it, and press Find the Wind")
     plain = scene_files.values(settings, sample.frames.start)
     if not plain["intervals"]:
         plain["intervals"] = [(len(sample.frames) - 1, (0.0, 0.0, 0.0), True)]
@@ -58,7 +58,7 @@ def solve(context, thing, operator):
     begins = [0, *(interval[0] for interval in plain["intervals"])]
     free = [n for n, interval in enumerate(plain["intervals"]) if interval[2] and begins[n] < frame]
     if not free:
-        raise Mistake("no wind before this frame may change: tick Find beside an interval of Nabiki > Wind")
+        raise Mistake("no wind before this frame may change: tick Find next to an interval in Nabiki > Wind")
     winds = [e for e in sample.effectors if e.kind == "WIND" and e.cone is None and e.strengths().any()]
     problem = [{"frame": frame, "strands": [s], "along": along, "mean_moved": way} for s, along, way in wishes]
     with motion.folder() as folder:
@@ -87,8 +87,8 @@ def solve(context, thing, operator):
             if not before:
                 settings.intervals.clear()
         raise
-    there = "there" if solution.after_cm < THERE_CM else "as near as it was found to come: free more winds, or move less"
-    return f"the hair is {solution.after_cm:.2f} cm from where you moved it, {there}; before it was {solution.before_cm:.2f} cm", []
+    there = "which is close enough" if solution.after_cm < THERE_CM else "the nearest that was found: tick Find for more winds, or move it less"
+    return f"the hair is {solution.after_cm:.2f} cm from where you moved it, {there} (before: {solution.before_cm:.2f} cm)", []
 
 
 def _apart(winds, plain):
