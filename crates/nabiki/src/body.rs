@@ -193,7 +193,7 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
         return refused("no triangles", "give a mesh of triangles");
     }
     if mesh.positions.iter().any(|p| !p.is_finite()) {
-        return refused("a vertex that is no point", "every coordinate must be a finite number");
+        return refused("a vertex that is not finite", "every coordinate must be a finite number");
     }
     let [low, high] = bounds(&mesh.positions);
     let side = |cm: f32| if cm < 1e5 { format!("{}", (1e3 * cm).round() / 1e3) } else { format!("{cm:.1e}") };

@@ -117,15 +117,15 @@ fn fields_without_anything_to_act_on_are_refused() {
     let bare = "[turbulence]\n";
     assert_eq!(
         refused(&format!("{bare}[gust]\n")),
-        "fields.toml:2: gust = without force: it makes [[force]] stronger and weaker: give one, or remove [gust]"
+        "fields.toml:2: gust = on: gusts change the strength of [[force]], and there is none: add one, or remove [gust]"
     );
     assert_eq!(
         refused(&format!("{bare}[flow]\n")),
-        "fields.toml:2: flow = without wind: it leads [[force]] and [body_wind] around the head: give one, or remove [flow]"
+        "fields.toml:2: flow = on: there is no [[force]] or [body_wind] to lead around the head: add one, or remove [flow]"
     );
     assert_eq!(
         refused(&format!("{bare}[body_wind]\n")),
-        "fields.toml:2: body_wind = without motion: it needs a moving head: give head.motion, or remove [body_wind]"
+        "fields.toml:2: body_wind = on: the head must move to make wind: set head.motion, or remove [body_wind]"
     );
 }
 

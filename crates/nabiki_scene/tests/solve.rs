@@ -343,8 +343,8 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
             "wish.toml:2: unknowns.interval.through = 99: the",
         ),
         (refusal(SCENE, "[unknowns]\nvectors = [0]\n"), "wish.toml: wish = none: nothing to solve for"),
-        (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] = no lock: name the hair"),
-        (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] = a wish to no place: give the goal as one of"),
+        (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] = no hair: name the hair"),
+        (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] = no goal: give the goal as one of"),
         (
             wish("mean_moved", "mean_at = [0, 0, 0]\nmean_moved"),
             "wish.toml:8: wish[0].mean_at = beside mean_moved: say",
@@ -355,7 +355,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             wish("mean_moved = [-1, 2, -2]", "mean_moved = [1, inf, 0]"),
-            "wish.toml:8: wish[0].mean_moved = no place: every",
+            "wish.toml:8: wish[0].mean_moved = not finite: every",
         ),
         (
             wish("strands = [3, 7, 11]", "near = { point = [90, 0, 0], radius = 2 }"),

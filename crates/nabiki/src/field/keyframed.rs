@@ -53,7 +53,7 @@ impl KeyframedField {
     /// Names the keyframe as `force[j]`, counted from 0 as the scene file's overrides count them.
     pub fn new(keyframes: &[Keyframe]) -> Result<Self, SettingError> {
         if keyframes.is_empty() {
-            return Err(SettingError::new("force", "none", "a field has at least one keyframe"));
+            return Err(SettingError::new("force", "none", "a field needs at least one keyframe"));
         }
         let mut previous = 0;
         for (j, key) in keyframes.iter().enumerate() {

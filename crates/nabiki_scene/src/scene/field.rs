@@ -133,22 +133,22 @@ impl FieldSettings {
         if let Some(gust) = gust {
             gust.check()?;
             if force.is_empty() {
-                let remedy = "it makes [[force]] stronger and weaker: give one, or remove [gust]";
-                return Err(SettingError::new("gust", "without force", remedy));
+                let remedy = "gusts change the strength of [[force]], and there is none: add one, or remove [gust]";
+                return Err(SettingError::new("gust", "on", remedy));
             }
         }
         if let Some(body_wind) = body_wind {
             body_wind.check()?;
             if !head_moves {
-                let remedy = "it needs a moving head: give head.motion, or remove [body_wind]";
-                return Err(SettingError::new("body_wind", "without motion", remedy));
+                let remedy = "the head must move to make wind: set head.motion, or remove [body_wind]";
+                return Err(SettingError::new("body_wind", "on", remedy));
             }
         }
         if let Some(flow) = flow {
             flow.check()?;
             if force.is_empty() && body_wind.is_none() {
-                let remedy = "it leads [[force]] and [body_wind] around the head: give one, or remove [flow]";
-                return Err(SettingError::new("flow", "without wind", remedy));
+                let remedy = "there is no [[force]] or [body_wind] to lead around the head: add one, or remove [flow]";
+                return Err(SettingError::new("flow", "on", remedy));
             }
         }
         turbulence.iter().try_for_each(Turbulence::check)?;

@@ -427,9 +427,9 @@ impl WishEntry {
         let mut given = goals.into_iter().filter_map(|(key, goal)| Some((key, goal?)));
         let (first, second) = (given.next(), given.next());
         let remedy = "give the goal as one of moved, mean_moved, mean_at and places";
-        let Some((key, goal)) = first else { return Err(SettingError::new(name, "a wish to no place", remedy)) };
+        let Some((key, goal)) = first else { return Err(SettingError::new(name, "no goal", remedy)) };
         if let Some((other, _)) = second {
-            return Err(SettingError::new(format!("{name}.{other}"), format!("beside {key}"), remedy));
+            return Err(SettingError::new(format!("{name}.{other}"), format!("given with {key}"), remedy));
         }
         let finite = match &goal {
             Goal::Moved(v) | Goal::MeanMoved(v) | Goal::MeanAt(v) => v.is_finite(),
@@ -440,7 +440,7 @@ impl WishEntry {
             true => Ok(goal),
             false => {
                 let remedy = "every coordinate must be a finite number (cm)";
-                Err(SettingError::new(format!("{name}.{key}"), "no place", remedy))
+                Err(SettingError::new(format!("{name}.{key}"), "not finite", remedy))
             }
         }
     }
@@ -459,11 +459,11 @@ impl Lock<'_> {
             (false, None) => {}
             (true, None) => {
                 let remedy = "name the hair: strands = [0, 1], or near = { point = [x, y, z], radius = 2 }";
-                return Err(SettingError::new(name, "no lock", remedy));
+                return Err(SettingError::new(name, "no hair", remedy));
             }
             (false, Some(_)) => {
                 let remedy = "name either strands or a point near them";
-                return Err(SettingError::new(format!("{name}.near"), "beside strands", remedy));
+                return Err(SettingError::new(format!("{name}.near"), "given with strands", remedy));
             }
             (true, Some(Near { point, radius, .. })) => {
                 if !point.is_finite() {
