@@ -340,14 +340,14 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             wish("vectors = [0]", "interval = { from = 40, through = 99 }"),
-            "wish.toml:2: unknowns.interval.through = 99: the",
+            "wish.toml:2: unknowns.interval.through = 99: hair moves",
         ),
         (refusal(SCENE, "[unknowns]\nvectors = [0]\n"), "wish.toml: wish = none: nothing to solve for"),
         (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] = no hair: name the hair"),
         (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] = no goal: give the goal as one of"),
         (
             wish("mean_moved", "mean_at = [0, 0, 0]\nmean_moved"),
-            "wish.toml:8: wish[0].mean_at = beside mean_moved: say",
+            "wish.toml:8: wish[0].mean_at = given with mean_moved: give",
         ),
         (
             wish("mean_moved = [-1, 2, -2]", "places = [[1, 2, 3]]"),
