@@ -1,4 +1,4 @@
-//! Bodies that hair does not enter: the head, and whatever else a scene names.
+//! Bodies that hair collides with: the head, and any others of a scene.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -43,9 +43,9 @@ impl Contact {
 /// The shape of a body.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// A rigid mesh, whose distance is sampled. Contact is compiled for it.
+    /// A rigid mesh with a sampled distance. Contact is compiled for this case.
     Mesh(Arc<SkinDistance>),
-    /// Any other, asked through its table of functions.
+    /// Any other shape, called through its trait object.
     Other(Arc<dyn Obstacle>),
 }
 
@@ -56,7 +56,7 @@ impl From<Arc<SkinDistance>> for Shape {
 }
 
 impl Shape {
-    /// What can be asked of it.
+    /// The shape as a trait object.
     pub fn obstacle(&self) -> &dyn Obstacle {
         match self {
             Self::Mesh(skin) => &**skin,
@@ -66,7 +66,7 @@ impl Shape {
 }
 
 impl PartialEq for Shape {
-    /// Whether they are the very same.
+    /// Compares by identity: true for the same shared shape.
     fn eq(&self, other: &Self) -> bool {
         std::ptr::addr_eq(self.obstacle(), other.obstacle())
     }
@@ -75,25 +75,26 @@ impl PartialEq for Shape {
 /// A surface of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
-    /// Its skin.
+    /// The skin.
     Skin,
-    /// Its skin with the folds filled.
+    /// The skin with its folds filled.
     Filled,
 }
 
-/// Where a body is, frame by frame.
+/// The motion of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodyWay {
-    /// Its space is head space: the head itself, a hat.
+    /// The body moves with the head, in head space: the head itself, or a hat.
     WithHead,
-    /// In the world: the pose of every frame from 0 on, or a single one for a body that stands still. Every frame up to
-    /// `motion.frames` needs one, and the last holds for good. A body whose way is not known beforehand has its pose at rest here
-    /// alone; [`FrameInput::bodies`](crate::dynamics::FrameInput::bodies) says where it is in each step.
+    /// Poses in the world: one per frame from frame 0 on, or a single one for a body that does not move. Every frame up
+    /// to `motion.frames` needs a pose, and the last pose also holds after it. If you do not know the motion
+    /// beforehand, give only the pose at rest, and pass the actual poses of each step in
+    /// [`FrameInput::bodies`](crate::dynamics::FrameInput::bodies).
     InWorld(Arc<[Pose]>),
 }
 
 impl BodyWay {
-    /// Where the body is in the world in a frame in which the head has the pose `head`.
+    /// The body's pose in the world in `frame`, where the head has the pose `head`.
     pub fn pose(&self, frame: u32, head: &Pose) -> Pose {
         match self {
             Self::WithHead => *head,
@@ -101,7 +102,7 @@ impl BodyWay {
         }
     }
 
-    /// The same way in `frames` frames that takes `of` frames now.
+    /// The same motion, resampled from `of` to `frames` frames.
     pub(crate) fn resampled(&self, of: u32, frames: u32) -> Self {
         match self {
             Self::InWorld(poses) if poses.len() > 1 => {
@@ -116,7 +117,7 @@ impl BodyWay {
         }
     }
 
-    /// Refuses a way that ends before `frames` or leads through places that are none; `name` is what the body is called.
+    /// Refuses a motion that ends before `frames` or has invalid poses. `name` is the body's name in the error.
     ///
     /// # Errors
     /// Names the frame.
@@ -128,7 +129,7 @@ impl BodyWay {
         check_poses(&format!("{name}.motion"), poses)
     }
 
-    /// Refuses a way that ends before `frames`, and a single pose as well: that of a motion which is too short.
+    /// Refuses a motion that ends before `frames`, including a single pose.
     ///
     /// # Errors
     /// Names the length.
@@ -145,20 +146,20 @@ impl BodyWay {
     }
 }
 
-/// Something that hair does not enter.
+/// An object that hair collides with.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Body {
-    /// What a scene calls the table of its contact: `contact` for the head, `body[0]`.
+    /// The scene table of its contact settings: `contact` for the head, `body[0]`.
     pub name: String,
-    /// Its shape, in its own space (cm).
+    /// The shape, in the body's space (cm).
     pub shape: Shape,
-    /// Its skin with the folds filled, for a body that hair lies on: nodes that rest outside of it keep outside of it, and
-    /// are not caught behind an ear.
+    /// The skin with its folds filled, for a body that hair lies on. Nodes that rest outside this surface stay outside
+    /// it, so they are not caught behind an ear.
     pub filled: Option<Arc<SkinDistance>>,
-    /// Where it is.
+    /// The motion.
     pub way: BodyWay,
-    /// How it is touched.
+    /// Margin and friction.
     pub contact: Contact,
 }
 
@@ -181,11 +182,11 @@ const AROUND_CM: f32 = 6.0;
 /// Samples of a body at most, 4 bytes each.
 const MOST_SAMPLES: f64 = 4e7;
 
-/// The distance to a body's skin, from its mesh (its own space, cm). Triangles that face inward are turned.
+/// Samples the signed distance to a mesh (body space, cm). Triangles that face inward are turned.
 ///
 /// # Errors
-/// Meshes without a triangle, with corners that are none, sheets that enclose nothing, and what is too large; `thing` is what
-/// the mesh is called.
+/// Meshes without triangles or with invalid indices or coordinates, sheets that enclose no space, and meshes that are
+/// too large. `thing` is the name of the mesh in the error.
 pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError> {
     let count = mesh.positions.len();
     let refused = |what: &str, remedy: &str| Err(SettingError::new(thing, what, remedy));
@@ -220,12 +221,12 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
 }
 
 impl Body {
-    /// A body without folds to be filled.
+    /// A body whose folds are not filled.
     pub fn new(name: impl Into<String>, shape: impl Into<Shape>, way: BodyWay, contact: Contact) -> Self {
         Self { name: name.into(), shape: shape.into(), filled: None, way, contact }
     }
 
-    /// The head itself, its folds filled if it is of a person's size.
+    /// The head as a body. Its folds are filled if the head has the size of a person's.
     pub fn head(head: &Head, contact: Contact) -> Self {
         let size = head.ellipsoid.half_axes.element_product().cbrt();
         let [low, high] = head.skin().sampled_box();
@@ -235,8 +236,8 @@ impl Body {
         Self { filled, ..Self::new("contact", head.skin().clone(), BodyWay::WithHead, contact) }
     }
 
-    /// The surface that a point which rests here (the body's space, cm) keeps out of, and how far from it: the margin, or
-    /// as far as it lies at rest where that is less.
+    /// The surface that a node resting at this point (body space, cm) stays outside of, and its distance from that
+    /// surface. The distance is the margin, or the distance at rest if that is smaller.
     pub fn kept_from(&self, at_rest: Vec3) -> (Surface, f32) {
         let distance = |shape: &dyn Obstacle| shape.read(at_rest, 0).map_or(self.contact.margin, |at| at.distance);
         match self.filled.as_deref().map(|filled| distance(filled)) {
@@ -245,7 +246,7 @@ impl Body {
         }
     }
 
-    /// One of its surfaces.
+    /// The distance to one of its surfaces.
     pub fn surface(&self, surface: Surface) -> &dyn Obstacle {
         match (surface, &self.filled) {
             (Surface::Filled, Some(filled)) => &**filled,
@@ -253,13 +254,13 @@ impl Body {
         }
     }
 
-    /// Refuses contacts out of range, and a way that ends before `frames` or leads through places that are none.
+    /// Refuses contact settings out of range, and a motion that ends before `frames` or has invalid poses.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.contact.check_at(&self.name)?;
         self.way.check(&self.name, frames)
     }
 
-    /// Takes points of the body's space into head space in a frame in which the head has the pose `head`.
+    /// Transforms points from body space to head space in `frame`, where the head has the pose `head`.
     pub fn head_from_body(&self, frame: u32, head: &Pose) -> Affine3A {
         match &self.way {
             BodyWay::WithHead => Affine3A::IDENTITY,
@@ -269,7 +270,7 @@ impl Body {
 }
 
 impl PartialEq for Body {
-    /// Whether they are the very same: shapes are compared by identity.
+    /// Shapes are compared by identity.
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
             && self.shape == other.shape

@@ -1,10 +1,10 @@
-//! Chance that does not depend on order: every draw is a hash of the seed, of a place and of a channel.
+//! Random numbers that do not depend on the order of drawing. Each is a hash of a seed, a place and a channel.
 
 use glam::{DVec3, IVec3, Vec3};
 
 use crate::random::{GOLDEN_GAMMA, finalise, unit};
 
-/// The chance of one place, usually a root: the same numbers whatever other strands there are.
+/// The random numbers of one place, usually a root. They do not depend on the other strands.
 #[derive(Clone, Copy, Debug)]
 pub struct Chance(u64);
 
@@ -14,13 +14,13 @@ fn hash(seed: u64, words: [u32; 3]) -> u64 {
 }
 
 impl Chance {
-    /// That of a point, by the bits of its coordinates.
+    /// The random numbers of a point, from the bits of its coordinates.
     pub fn at_point(seed: u64, p: Vec3) -> Self {
         // Adding 0 makes one zero of the two.
         Self(hash(seed, (p + 0.0).to_array().map(f32::to_bits)))
     }
 
-    /// That of a cell of a grid.
+    /// The random numbers of a grid cell.
     pub fn at_cell(seed: u64, cell: IVec3) -> Self {
         Self(hash(seed.wrapping_add(1), cell.to_array().map(|i| i as u32)))
     }
@@ -31,7 +31,7 @@ impl Chance {
         Self(finalise(self.0 ^ seed.wrapping_mul(GOLDEN_GAMMA)))
     }
 
-    /// Uniform in 0..1, one number a channel.
+    /// Uniform in 0..1, one number per channel.
     pub fn unit(self, channel: u64) -> f64 {
         unit(finalise(self.0.wrapping_add(channel.wrapping_mul(0xD134_2543_DE82_EF95))))
     }

@@ -1,10 +1,10 @@
-//! Signed distance to the skin of any head: exact near and far, read from samples where it is asked for most.
+//! Signed distance to the skin of any head. Queries near the head read precomputed samples; distant ones are exact.
 //!
-//! The mesh may be open at the neck, have holes and several overlapping parts. Its rims are closed by fans, the
-//! distance is that to the nearest triangle (a bounding-volume tree), and the sign comes from the winding number,
-//! which a stray, doubled or missing triangle moves by a fraction only. A groom asks millions of times, so both are
-//! sampled once: coarsely through a box about the head, and four times finer in the cells that the skin passes
-//! through or comes near. A reading is one trilinear interpolation; beyond the box the tree answers.
+//! The mesh may be open at the neck and may have holes and overlapping parts. Fans of triangles close its open rims.
+//! The distance is that to the nearest triangle (a bounding-volume tree). The sign is that of the winding number, which
+//! a stray, doubled or missing triangle changes only slightly. Both are sampled once: coarsely in a box around the
+//! head, and four times finer in cells at or near the skin. A query is one trilinear interpolation. Outside the box,
+//! queries use the tree.
 
 mod filled;
 pub(crate) mod rims;
@@ -42,10 +42,10 @@ pub struct SkinDistance {
 }
 
 impl SkinDistance {
-    /// Samples the distance to `mesh` through the box `low..high`, with steps of `spacing` near the skin.
+    /// Samples the distance to `mesh` in the box `low..high`, with steps of `spacing` near the skin.
     ///
-    /// Every vertex must be finite, and some triangle must have three corners in different places; `spacing` must be
-    /// above 0.
+    /// Every vertex must be finite, at least one triangle must have three distinct corners, and `spacing` must be above
+    /// 0.
     pub fn new(mesh: &Mesh, low: Vec3, high: Vec3, spacing: f32) -> Self {
         let tree = Tree::new(&rims::closed(mesh));
         let cell = spacing * FINE as f32;
@@ -137,7 +137,8 @@ impl SkinDistance {
         Self { tree: OnceLock::from(tree), mesh: Mesh::default(), samples }
     }
 
-    /// How many samples [`new`](Self::new) takes, about: at the coarse nodes, and in blocks on both sides of the mesh's triangles.
+    /// Approximate number of samples that [`new`](Self::new) takes: coarse nodes, and blocks on both sides of the
+    /// triangles.
     pub fn count_samples(mesh: &Mesh, low: Vec3, high: Vec3, spacing: f32) -> f64 {
         let cell = f64::from(spacing) * FINE as f64;
         let coarse = ((high - low).as_dvec3() / cell + 2.0).element_product();
@@ -150,7 +151,7 @@ impl SkinDistance {
         coarse + layers * areas.sum::<f64>() / (cell * cell) * (EDGE * EDGE * EDGE) as f64
     }
 
-    /// Signed distance at `p`, without sampling: about a hundred times dearer than [`at`](Self::at).
+    /// Signed distance at `p`, computed from the mesh. About 100 times slower than [`at`](Self::at).
     pub fn exact(&self, p: Vec3) -> f32 {
         self.tree().signed(p)
     }
@@ -159,9 +160,9 @@ impl SkinDistance {
         self.tree.get_or_init(|| Tree::new(&rims::closed(&self.mesh)))
     }
 
-    /// Signed distance at `p`. Within two fine steps h of the skin it is that of the mesh but for the interpolation's
-    /// error, h^2 / 8 times the sum of the curvatures; farther off it may be too large by a twentieth; beyond the
-    /// sampled box it is exact, and about a hundred times dearer.
+    /// Signed distance at `p`. Within two fine steps h of the skin, its error is that of the interpolation: h^2 / 8
+    /// times the sum of the curvatures. Farther away it may be up to 5 % too large. Outside the sampled box it is
+    /// exact, and about 100 times slower.
     pub fn at(&self, p: Vec3) -> f32 {
         let Samples { low, cell, nodes, mirrored, coarse, block_of, fine } = &self.samples;
         let p = if *mirrored { p.with_z(p.z.abs()) } else { p };
@@ -185,7 +186,8 @@ impl SkinDistance {
         trilinear(&fine[block as usize], (k * EDGE + j) * EDGE + i, EDGE, EDGE * EDGE, t - f.as_vec3())
     }
 
-    /// The gradient at `p` by central differences over one fine step: of unit length but for the sampling.
+    /// The gradient at `p`, from central differences over one fine step. Its length is 1 up to the error of the
+    /// sampling.
     pub fn gradient(&self, p: Vec3) -> Vec3 {
         let h = 0.5 * self.samples.cell / FINE as f32;
         let along = |e: Vec3| self.at(p + e) - self.at(p - e);

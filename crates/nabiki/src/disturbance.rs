@@ -1,4 +1,4 @@
-//! Small random disturbances of the hair every so many frames, section 4.4 (the running scene).
+//! Small random disturbances of the hair at regular intervals: section 4.4 of the paper (the running scene).
 
 use crate::error::SettingError;
 use crate::random::mix;
@@ -26,12 +26,12 @@ settings! {
     }
 }
 
-/// What a frame has of a disturbance.
+/// The part of a disturbance that falls into one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
-    /// The frame that the disturbance falls on: it sets in there.
+    /// The frame in which the disturbance starts.
     pub falls_on: u32,
-    /// The part of its turn that comes in this frame; those of all its frames add up to 1.
+    /// The share of the turn in this frame. The shares of all its frames add up to 1.
     pub share: f32,
 }
 
@@ -45,12 +45,12 @@ impl Disturbance {
         refused(&at.key("over"), self.over, remedy)
     }
 
-    /// Whether a disturbance sets in on arriving at this frame.
+    /// Whether a disturbance starts in this frame.
     pub fn falls_on(&self, frame: u32) -> bool {
         frame >= self.from && frame.is_multiple_of(self.every)
     }
 
-    /// What comes of a disturbance on arriving at this frame, if anything does.
+    /// The part of a disturbance in this frame, if any.
     pub fn part(&self, frame: u32) -> Option<Part> {
         let since = frame % self.every;
         let falls_on = frame - since;
@@ -64,8 +64,8 @@ impl Disturbance {
         t * t * (3.0 - 2.0 * t)
     }
 
-    /// The turns (theta, phi) that strand `id`'s tip makes as this part of a disturbance, all parts together within
-    /// `amplitude` each (rad).
+    /// The turns (theta, phi) of the tip of strand `id` in this part of a disturbance (rad). All parts together stay
+    /// within `amplitude`.
     pub fn turn(&self, id: u32, part: &Part) -> [f32; 2] {
         let key = mix(self.seed ^ mix((u64::from(id) << 32) | u64::from(part.falls_on)));
         [key, mix(key)].map(|bits| {

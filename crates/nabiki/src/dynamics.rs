@@ -1,8 +1,8 @@
-//! The motion of hair: projective equations (1), (2), their gains (6), (8) and two steppers of (7).
+//! The motion of hair: projective equations (1) and (2), their gains (6) and (8), and two steppers of (7).
 //!
-//! [`Reference`] is the specification: scalar, f64, to be read beside the paper. [`Simulation`] is its fast twin:
-//! f32, sixteen strands to a block, all cores. Both take the same [`Dynamics`] and [`FrameInput`]s and give the same
-//! frames. [`Timeline`] is the fast twin with all its frames at hand.
+//! [`Reference`] is the specification: scalar f64 code to read next to the paper. [`Simulation`] is its fast twin: f32,
+//! blocks of 16 strands, all cores. Both take the same [`Dynamics`] and [`FrameInput`]s and compute the same frames.
+//! [`Timeline`] is the fast twin for all frames at once.
 //!
 //! [`Form`] chooses between two sets of equations: the paper's (docs/equations.md) and the free form
 //! (docs/motion-forms.md). Files that ask which form it is: this one, `reference.rs`, `runner.rs`, `simulation.rs`,
@@ -106,7 +106,7 @@ words! {
 }
 
 impl Motion {
-    /// The most frames: days of film, and more is a mistyped number.
+    /// Largest number of frames: days of film. A larger number is most likely mistyped.
     pub const MOST_FRAMES: u32 = 10_000_000;
 
     /// Delta t in slow motion.
@@ -115,36 +115,35 @@ impl Motion {
     }
 }
 
-/// All that decides how hair answers a force, checked when a stepper is built.
+/// Everything that determines how hair responds to a force. It is checked when you build a stepper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dynamics {
-    /// Step and inertia.
+    /// Length, pace and inertia.
     pub motion: Motion,
-    /// The segment length d that the paper's k and i are counted in (cm), above 0: a strand of length L is k = L/d
-    /// segments long, whatever number of segments it is stored in.
+    /// The segment length d (cm, above 0) in which the paper counts k and i. A strand of length L has k = L/d reference
+    /// segments, however many segments it is stored in.
     pub segment_length: f32,
-    /// Where and by how much the force is weakened before the head; in the free form only where that asks for it, see
-    /// [`weakening`](Self::weakening).
+    /// Where and how much the force is weakened in front of the head. In the free form this applies only if
+    /// [`weakening`](Self::weakening) asks for it.
     pub pseudo_force: PseudoForce,
     /// The head ellipsoid E (head space, cm).
     pub ellipsoid: Ellipsoid,
-    /// C is E scaled by this, above 1.
+    /// C is E scaled by this factor, above 1.
     pub shell: f32,
-    /// The axis that theta is measured from (head space, any length but 0): the world's vertical at frame 0, with which
-    /// it goes along with the head from there on. [`Pose::up_in_head`] of the first pose gives it; y for a head that
-    /// starts upright.
+    /// The axis from which theta is measured (head space, any length except 0): the world's vertical at frame 0, which
+    /// then moves with the head. Use [`Pose::up_in_head`] of the first pose, or y for a head that starts upright.
     pub polar_axis: Vec3,
-    /// Disturbance of the segments, if any; of the paper's form only.
+    /// Disturbance of the segments, if any. Paper's form only.
     pub disturbance: Option<Disturbance>,
-    /// Which equations hair moves by.
+    /// The equations of motion.
     pub form: Form,
 }
 
-/// The equations that hair moves by.
+/// The equations of motion.
 #[allow(clippy::large_enum_variant, reason = "a stepper has one")]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Form {
-    /// The paper's: two angles a segment, equation (7).
+    /// The paper's form: two angles per segment, equation (7).
     #[default]
     Paper,
     /// The free form: a chain of segments with tension, bending and torsion. See docs/motion-forms.md.
@@ -152,8 +151,9 @@ pub enum Form {
 }
 
 impl Dynamics {
-    /// The paper's settings for hair about a head with this ellipsoid (head space, cm): segments of 1 cm, C a quarter larger than E,
-    /// a head that starts upright. More settings will come: change what differs, or end a literal with `..Dynamics::new(ellipsoid)`.
+    /// The paper's settings for a head with this ellipsoid (head space, cm): segments of 1 cm, C 25 % larger than E,
+    /// and a head that starts upright. Later versions may add settings. Change the fields you need, or end a literal
+    /// with `..Dynamics::new(ellipsoid)`.
     pub fn new(ellipsoid: Ellipsoid) -> Self {
         Self {
             motion: Motion::default(),
@@ -167,8 +167,7 @@ impl Dynamics {
         }
     }
 
-    /// Refuses settings out of range; whether they are stable depends on the strands too, see
-    /// [`Simulation::new`].
+    /// Refuses settings out of range. Stability depends on the strands as well; see [`Simulation::new`].
     pub fn check(&self) -> Result<(), SettingError> {
         self.motion.check()?;
         check_positive("hair.segment_length", self.segment_length)?;
@@ -194,15 +193,16 @@ impl Dynamics {
         }
     }
 
-    /// The same motion in seconds, to first order, at another rate of steps (frames a second): R times as many steps are a time step of
-    /// 1 / R, settling and disturbances over R times as many frames, a cohesion R times as strong for each cm a frame, and
-    /// [`Motion::frames`] R times as many. Ways of bodies have poses between theirs. Forces, stiffness, hold, gravity, pressure, drag and
-    /// contact stay as they are. What a field counts in frames is the field's, and is to be given anew; disturbances are other ones.
+    /// The same motion in seconds, to first order, at another step rate (frames per second). With R times as many
+    /// steps: the time step becomes 1 / R of its value; settling, disturbances and [`Motion::frames`] get R times as
+    /// many frames; and cohesion per cm per frame becomes R times as strong. Motions of bodies get interpolated poses.
+    /// Forces, stiffness, hold, gravity, pressure, drag and contact stay the same. Settings of fields that count frames
+    /// are not changed here: build those fields for the new rate. The random turns of disturbances differ.
     ///
-    /// A lower rate may be too low for the forces, which a stepper then refuses.
+    /// A lower rate may be unstable for the forces. The stepper then refuses them.
     ///
     /// # Errors
-    /// A rate that is none, or gives more frames than may be; settings out of range.
+    /// An invalid rate, a rate that needs too many frames, or settings out of range.
     pub fn at_frame_rate(&self, rate: f64) -> Result<Self, SettingError> {
         self.check()?;
         let ratio = rate / self.motion.frame_rate;
@@ -231,7 +231,7 @@ impl Dynamics {
         Ok(dynamics)
     }
 
-    /// What weakens the field before the head: nothing in the free form, unless it asks for it.
+    /// What weakens the field in front of the head. `None` in the free form, unless it asks for it.
     pub fn weakening(&self) -> Option<&PseudoForce> {
         match &self.form {
             Form::Free(free) if !free.form.pseudo_force => None,
@@ -244,38 +244,40 @@ impl Dynamics {
     }
 }
 
-/// What a step needs to know of the frame that it arrives at.
+/// The input of a step: the state of the scene in the frame that the step computes.
 ///
-/// Where the head's way is known beforehand, [`new`](Self::new) takes it from there. An engine knows only where the head is now:
-/// [`live`](Self::live), and what else it moves [`with_bodies`](Self::with_bodies).
+/// If you know the motion of the head beforehand, use [`new`](Self::new). An engine knows only the current pose: use
+/// [`live`](Self::live), and [`with_bodies`](Self::with_bodies) for everything else that moves.
 ///
-/// A step takes all of it as it is: poses are to be [valid](Pose::is_valid), forces finite and within the bound of the field that
-/// the stepper was built with. A NaN stays in the hair until it is put back to rest.
+/// A step does not check its input. Poses must be [valid](Pose::is_valid); forces must be finite and within the bound
+/// of the field that the stepper was built with. A NaN stays in the hair until you rewind it.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct FrameInput<'a> {
-    /// Number n + 1 of the frame to arrive at; 1 is the first after rest. Fields, bodies on their way and disturbances go by it; it
-    /// need not follow the last one, and may lie beyond [`Motion::frames`].
+    /// Number of the frame to compute; 1 is the first after rest. Fields, moving bodies and disturbances use it. It
+    /// need not follow the previous number, and may exceed [`Motion::frames`].
     pub frame: u32,
-    /// Where the head is in that frame. Forces given in the world act on the hair as it would stand if it only went
-    /// along with the head: F(n + 1) is asked for at p_i of frame n, carried by this pose.
+    /// The pose of the head in that frame. World forces F(n + 1) are evaluated at p_i of frame n, carried by this pose:
+    /// as if the hair had moved rigidly with the head.
     pub pose: Pose,
-    /// Where it was in the two frames before, the later one first: the free form feels turns and accelerations.
+    /// The poses of the two previous frames, the later one first. The free form uses them for turns and accelerations.
     pub before: [Pose; 2],
-    /// What pulls, any field in any step. Its strength is bounded when a stepper is built, and taken as it is here: see
-    /// [`Simulation::strongest_force`].
+    /// The field. Each step may use another one. Its strength is bounded when you build a stepper and is not checked
+    /// here; see [`Simulation::strongest_force`].
     pub field: &'a dyn Field,
-    /// Where bodies are in the world in that frame, and where they were in the frame before, by their number among
-    /// [`FreeMotion::bodies`]: a hand that a player moves. `None`, and no entry, for a body that goes its [`BodyWay`]. What it does
-    /// between the two frames is not seen: a blade that goes farther in a step than it is wide may pass hair by.
+    /// World poses of bodies in that frame and in the frame before, by their index in [`FreeMotion::bodies`]: for
+    /// example a hand that a player moves. `None`, or a missing entry, means that the body follows its [`BodyWay`].
+    /// Contact is tested only at these poses: a thin blade that moves farther in a step than its width may pass through
+    /// hair.
     ///
     /// [`BodyWay`]: crate::body::BodyWay
     pub bodies: &'a [Option<[Pose; 2]>],
 }
 
 impl<'a> FrameInput<'a> {
-    /// A frame from 1 on of a head whose `poses`, all of them, are given from frame 0 on; none for a head that stands still, and the last
-    /// one holds for good. Before frame 0 the head went as it goes from there on. All bodies go their ways.
+    /// A frame (from 1 on) of a head whose `poses` are all known, starting at frame 0. An empty slice is a head that
+    /// does not move; after the last pose the head stays there. Before frame 0, the motion is continued backward. All
+    /// bodies follow their own motions.
     pub fn new(frame: u32, poses: &[Pose], field: &'a dyn Field) -> Self {
         let pose = |n: u32| poses.get(n as usize).or(poses.last()).copied().unwrap_or_default();
         let before = frame.saturating_sub(1);
@@ -286,13 +288,14 @@ impl<'a> FrameInput<'a> {
         Self { frame, pose: pose(frame), before: [pose(before), earlier], field, bodies: &[] }
     }
 
-    /// A frame of a head whose pose is known from step to step. `before`: those of the last step, and of the step before that. A head
-    /// that jumps has `[pose; 2]`: hair goes along as it is, and feels nothing of the jump; see [`Simulation::jumped`] for bodies.
+    /// A frame of a head whose pose is known from step to step. `before` holds the poses of the previous step and of
+    /// the step before it. If the head jumps, pass `[pose; 2]`: the hair moves along and does not feel the jump. See
+    /// [`Simulation::jumped`] for bodies.
     pub fn live(frame: u32, pose: Pose, before: [Pose; 2], field: &'a dyn Field) -> Self {
         Self { frame, pose, before, field, bodies: &[] }
     }
 
-    /// The same with [`bodies`](Self::bodies) that are told where they are.
+    /// Sets the poses of [`bodies`](Self::bodies).
     #[must_use]
     pub fn with_bodies(self, bodies: &'a [Option<[Pose; 2]>]) -> Self {
         Self { bodies, ..self }
@@ -320,7 +323,7 @@ fn between(from: Affine3A, to: Affine3A, t: f32) -> Affine3A {
     Affine3A::from_rotation_translation(a.slerp(b, t), from.translation.lerp(to.translation, t).into())
 }
 
-/// Hair that moves a frame at a time: the two twins, behind one interface.
+/// Hair that moves one frame at a time: the common interface of the two twins.
 pub trait Stepper {
     /// Advances by one step, to the frame of `input`.
     fn step_frame(&mut self, input: &FrameInput);

@@ -28,15 +28,15 @@ impl Ellipsoid {
         2.0 * (p - self.center) / (self.half_axes * self.half_axes)
     }
 
-    /// Longitude and latitude as texture coordinates, each in 0..1: (1/2, 1/2) where the face looks (+x), u growing
-    /// toward +z with its seam at the back, v from the bottom to the top. For a point off the surface, those of the
-    /// similar ellipsoid through it.
+    /// Longitude and latitude as texture coordinates, each in 0..1. The point where the face looks (+x) is (1/2, 1/2).
+    /// u grows toward +z with its seam at the back; v grows from bottom to top. A point off the surface gets the
+    /// coordinates of the similar ellipsoid through it.
     pub fn uv(&self, p: Vec3) -> Vec2 {
         let q = ((p - self.center) / self.half_axes).normalize_or(Vec3::Y);
         Vec2::new(0.5 + q.z.atan2(q.x) / TAU, 0.5 + q.y.clamp(-1.0, 1.0).asin() / PI)
     }
 
-    /// The similar ellipsoid about the same centre: C of the paper, for a `factor` above 1.
+    /// The ellipsoid scaled about its centre. With a `factor` above 1 this is C of the paper.
     pub fn scaled(&self, factor: f32) -> Self {
         Self { center: self.center, half_axes: self.half_axes * factor }
     }

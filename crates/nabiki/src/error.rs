@@ -1,24 +1,24 @@
-//! A setting that cannot be simulated.
+//! The error for a setting that cannot be simulated.
 
 use std::fmt::{self, Display};
 
 use crate::key::Key;
 
-/// A setting refused before anything is stepped: which one, what it was, and what it may be.
+/// A setting that was refused before the simulation started: its name, its value, and what it may be.
 ///
-/// Its text is one line, `motion.time_step = -0.1: must be a number above 0`, to which a front end adds the file.
+/// It displays as one line, `motion.time_step = -0.1: must be a number above 0`. A front end adds the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct SettingError {
-    /// The setting's name as a scene file spells it, `motion.time_step`.
+    /// The setting's name in a scene file, such as `motion.time_step`.
     pub thing: Key,
-    /// The value found.
+    /// The value.
     pub value: String,
-    /// The range allowed, or the way out: a phrase that reads after a colon.
+    /// The allowed range, or how to fix it: a phrase that follows a colon.
     pub remedy: String,
 }
 
 impl SettingError {
-    /// Names `thing`, the `value` it has, and what to do about it.
+    /// An error about `thing` and its `value`.
     pub fn new(thing: impl Into<Key>, value: impl Display, remedy: impl Into<String>) -> Self {
         Self { thing: thing.into(), value: value.to_string(), remedy: remedy.into() }
     }

@@ -1,4 +1,4 @@
-//! Force fields: what pulls at a point in a frame. `docs/fields.md` says how to choose among them.
+//! Force fields: the force at a point in a frame. `docs/fields.md` explains how to choose among them.
 
 mod body_wind;
 mod falloff;
@@ -40,34 +40,33 @@ pub type VectorRow = [[f32; ROW]; 3];
 
 /// A force at every point and in every frame.
 ///
-/// A force is a direction with a strength, without a unit (section 4.3 of the paper: only c_i |F| moves hair). Points
-/// are in the world (cm, y up), or in head space where `motion.force_space` says that forces turn with the head. The
-/// answer depends on point and frame only and is finite: hair moves to the same bits whoever asks, and in whatever
-/// order.
+/// A force has a direction and a strength, but no physical unit (section 4.3 of the paper: only c_i |F| moves hair).
+/// Points are in the world (cm, y up), or in head space if `motion.force_space` makes forces turn with the head. The
+/// result must be finite and must depend only on point and frame: hair then moves the same, bit by bit, in any order of
+/// calls.
 ///
-/// Wind that changes as a game goes on is a field that holds the wind of now and is changed between steps, as a [`UniformField`] is,
-/// within [`Simulation::strongest_force`](crate::dynamics::Simulation::strongest_force).
+/// For wind that changes during a game, use a field that holds the current wind and change it between steps, as
+/// [`UniformField`] does. Stay within [`Simulation::strongest_force`](crate::dynamics::Simulation::strongest_force).
 pub trait Field: Debug + Send + Sync {
     /// The force at a point (cm) in a frame.
     fn at(&self, point: Vec3, frame: u32) -> Vec3;
 
-    /// A bound on |F| over all points and frames, by which a field too strong for the step is refused before the
-    /// first one.
+    /// A bound on |F| over all points and frames. A field that is too strong for the step is refused before the first
+    /// step.
     fn strongest(&self) -> f32;
 
-    /// What to change where |F| may exceed `limit`: the name and value of the first setting that is to blame. `None` where
-    /// it stays at or below it.
+    /// The name and value of the first setting to change if |F| may exceed `limit`; `None` if it does not.
     fn first_above(&self, limit: f64) -> Option<(String, String)> {
         let strongest = self.strongest();
         (f64::from(strongest) > limit).then(|| ("force".to_owned(), strongest.to_string()))
     }
 
-    /// The vector that holds everywhere in this frame, if there is one: the steppers are then spared the asking.
+    /// The force in this frame if it is the same everywhere. Steppers then do not evaluate points.
     fn uniform(&self, _frame: u32) -> Option<Vec3> {
         None
     }
 
-    /// The forces at sixteen points in a frame, each the very bits of [`at`](Self::at).
+    /// The forces at sixteen points in a frame, with the same bits as [`at`](Self::at).
     fn at_row(&self, points: &VectorRow, frame: u32, forces: &mut VectorRow) {
         if let Some(force) = self.uniform(frame) {
             *forces = force.to_array().map(|along| [along; ROW]);

@@ -1,4 +1,4 @@
-//! Settings of the free form of the motion. Its equations are in docs/motion-forms.md.
+//! Settings of the free form of the motion. docs/motion-forms.md has its equations.
 
 use std::sync::Arc;
 
@@ -69,8 +69,8 @@ settings! {
 }
 
 impl Tie {
-    /// Number of segments that the band holds: up to the strand's node nearest to it, if that is near enough; else up to the nearer node of a
-    /// segment that passes near enough, at least one; else 0.
+    /// Number of segments that the band holds: up to the strand's node nearest to the band, if that is close enough.
+    /// Otherwise up to the nearer node of the first segment that passes close enough, at least one. Otherwise 0.
     pub fn held(&self, strand: &[Vec3]) -> usize {
         let far = |p: &Vec3| p.distance_squared(self.at);
         let near_enough = |far: f32| far <= self.within * self.within;
@@ -93,13 +93,14 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
 }
 
 impl FreeForm {
-    /// alpha: how fast the air slows a node (1 a frame). A swing's amplitude falls half as fast, to 1/e in `settle` frames.
+    /// alpha: how fast the air slows a node (1/frame). The amplitude of a swing falls half as fast, to 1/e in `settle`
+    /// frames.
     pub fn air(&self, along: f64) -> f64 {
         let settle = self.settle.at(along);
         if settle > 0.0 { 2.0 / settle } else { 0.0 }
     }
 
-    /// Steps in a frame, for a stepper: 2 where none are given, see [`substeps`](crate::dynamics::substeps).
+    /// Steps per frame for a stepper: 2 if `substeps` is not set, see [`substeps`](crate::dynamics::substeps).
     pub fn steps(&self) -> u32 {
         self.substeps.unwrap_or(2)
     }
@@ -124,53 +125,53 @@ settings! {
     }
 }
 
-/// Hair against hair, with the hair that carries it.
+/// Hair against hair: the settings and the carriers.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Neighbours {
     /// Strengths.
     pub forces: NeighbourForces,
-    /// The carriers at rest (head space, cm), whichever strands are stepped: of hair of one's own
+    /// The carriers at rest (head space, cm). They do not depend on which strands are stepped. For your own hair, use
     /// `hair.select(&evenly(&roots, 256))`, see [`evenly`](crate::subset::evenly).
     pub carriers: Arc<Strands>,
 }
 
 impl Neighbours {
-    /// Of such strengths, between hair and these carriers at rest (head space, cm).
+    /// Neighbour forces of these strengths with these carriers at rest (head space, cm).
     pub fn new(forces: NeighbourForces, carriers: Arc<Strands>) -> Self {
         Self { forces, carriers }
     }
 }
 
-/// The free form with all that surrounds the hair.
+/// The free form, with everything around the hair.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FreeMotion {
     /// How hair keeps its shape and settles.
     pub form: FreeForm,
-    /// What hair does not enter.
+    /// Bodies that hair collides with.
     pub bodies: Vec<Body>,
     /// Hair against hair, if any.
     pub neighbours: Option<Neighbours>,
-    /// Where locks are, for [`FreeForm::variation`], whose own `size` is for scenes.
+    /// The locks, for [`FreeForm::variation`]. The `size` in those settings is used only by scenes.
     pub locks: Locks,
-    /// The head's pose in frame 0, under which hair at rest carries its weight.
+    /// The head's pose in frame 0. It determines how gravity acts on the hair at rest.
     pub rest_pose: Pose,
 }
 
 impl FreeMotion {
-    /// The lock of a strand at rest (head space, cm): tied hair is parted into locks where it leaves its band.
+    /// The lock of a strand at rest (head space, cm). Tied hair is divided into locks where it leaves its band.
     pub fn lock(&self, strand: &[Vec3]) -> Lock {
         self.locks.of(strand[self.form.tie.map_or(0, |tie| tie.held(strand))])
     }
 
-    /// How a strand at rest (head space, cm) differs from what the form says.
+    /// How a strand at rest (head space, cm) differs from the settings of the form.
     pub fn own(&self, strand: &[Vec3]) -> Own {
         self.form.variation.map_or_else(Own::default, |variation| {
             variation.of(&self.lock(strand), Chance::at_point(self.locks.seed, strand[0]))
         })
     }
 
-    /// Refuses settings out of range, and bodies that lack a pose in any of the `frames` frames after frame 0.
+    /// Refuses settings out of range, and bodies without a pose in any of the `frames` frames after frame 0.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
         if !(self.locks.size > 0.0 && self.locks.size.is_finite()) {

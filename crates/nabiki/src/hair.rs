@@ -1,4 +1,4 @@
-//! Hair as tools exchange it: strands with whatever else a file says about them.
+//! Hair as tools exchange it: strands, and all other data that a file has for them.
 
 mod join;
 mod other;
@@ -13,31 +13,31 @@ use crate::Strands;
 
 pub use other::{Other, Per, Role, Stored, Values};
 
-/// Strands and what a file carries beside their points.
+/// Strands and their attributes.
 ///
-/// Readers give it in the file's own unit and axes; [`transformed`](Self::transformed) takes it to head space.
+/// Readers return it in the file's unit and axes; [`transformed`](Self::transformed) takes it to head space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hair {
     /// The polylines, root first.
     pub strands: Strands,
-    /// What is known beside the points.
+    /// Everything except the points.
     pub attributes: Attributes,
 }
 
-/// What a groom carries beside its points; `None` where the source said nothing.
+/// The attributes of a groom. `None` means that the source has no such data.
 ///
-/// Arrays *by strand* have one entry for each strand, arrays *by point* one for each of [`Strands::points`].
+/// Arrays *by strand* have one entry per strand, arrays *by point* one per point of [`Strands::points`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attributes {
-    /// Lasting number of a strand in its source, by strand.
+    /// Persistent id of the strand in its source, by strand.
     pub id: Option<Vec<i64>>,
     /// Texture coordinates of the root on the skin, by strand.
     pub root_uv: Option<Vec<[f32; 2]>>,
     /// Clump or group number, by strand.
     pub group: Option<Vec<i32>>,
-    /// Names of groups, where the source names them.
+    /// Names of groups, if the source has them.
     pub group_names: BTreeMap<i32, String>,
-    /// Whether the strand guides others rather than being drawn, by strand.
+    /// Whether the strand is a guide and not drawn itself, by strand.
     pub guide: Option<Vec<bool>>,
     /// Diameter, by point (same unit as the points).
     pub width: Option<Vec<f32>>,
@@ -47,20 +47,20 @@ pub struct Attributes {
     pub transparency: Option<Vec<f32>>,
     /// Texture coordinates, by point.
     pub point_uv: Option<Vec<[f32; 2]>>,
-    /// TressFX's w: 0 where a point is held by the skin, 1 where it is free, by point.
+    /// TressFX's w, by point: 0 if the skin holds the point, 1 if it is free.
     pub inverse_mass: Option<Vec<f32>>,
-    /// Whether the source has the points of a strand from its tip to its root, by strand. Here they run from the root on:
+    /// Whether the source stores the strand from tip to root, by strand. Here, strands always start at the root;
     /// [`Hair::as_in_source`] turns them back.
     pub tip_first: Option<Vec<bool>>,
-    /// Whatever else the source carries, under its own names.
+    /// All other attributes of the source, under their names there.
     pub other: Vec<Other>,
-    /// What the source says of its strands that could not be kept, a phrase each.
+    /// Data of the source that could not be kept, a phrase each.
     pub unread: Vec<String>,
-    /// Values that hold wherever no array says otherwise.
+    /// Values that apply where there is no array.
     pub constant: Constants,
 }
 
-/// Values for all points of a groom at once; an array of [`Attributes`] goes before them.
+/// Values for all points of a groom. An array of [`Attributes`] takes precedence.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Constants {
     /// Diameter (same unit as the points).
@@ -71,16 +71,16 @@ pub struct Constants {
     pub transparency: Option<f32>,
 }
 
-/// What [`Hair::without_degenerate`] took away.
+/// What [`Hair::without_degenerate`] removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Degenerate {
-    /// Points that lay on the point before them and were joined with it.
+    /// Points that were joined with the point before them.
     pub joined_points: usize,
-    /// Strands dropped because no segment was left.
+    /// Strands that were dropped because they had no segment left.
     pub dropped_strands: usize,
 }
 
-/// An attribute array whose length is not that of the strands or points it should describe.
+/// An attribute array whose length does not match the strands or points.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("attribute {name}: {found} values where the hair has {expected}")]
 pub struct LengthError {
@@ -127,14 +127,14 @@ impl Hair {
         Ok(())
     }
 
-    /// The strands named by `indices`, in that order, with their attributes.
+    /// The strands with these `indices`, in that order, with their attributes.
     pub fn select(&self, indices: &[usize]) -> Self {
         let points: Vec<usize> = indices.iter().flat_map(|&s| self.strands.range(s)).collect();
         Self { strands: self.strands.select(indices), attributes: self.attributes.gather(indices, &points) }
     }
 
-    /// Joins each point with the one kept before it where they are `tolerance` or less apart (same unit as the
-    /// points), drops the strands left without a segment, and counts both. The root always stays.
+    /// Joins each point with the last kept point if they are at most `tolerance` apart (in the unit of the points),
+    /// drops strands without a segment, and counts both. The root always stays.
     pub fn without_degenerate(self, tolerance: f32) -> (Self, Degenerate) {
         let mut kept_strands = Vec::with_capacity(self.strands.len());
         let mut kept_points = Vec::with_capacity(self.strands.points().len());
@@ -166,9 +166,9 @@ impl Hair {
         (Self { strands, attributes }, found)
     }
 
-    /// The hair in another space: points mapped by `target_from_source`, widths multiplied by its scale
-    /// (the cube root of its determinant). Points are singles before and after, and what is between them is not: far from an
-    /// origin, a transform and what brings its points back from there would cost a single its digits.
+    /// The hair in another space: points are mapped by `target_from_source`, widths multiplied by its scale (the cube
+    /// root of its determinant). Points are f32 before and after, but the transform is computed in f64, so a distant
+    /// origin costs no digits.
     pub fn transformed(mut self, target_from_source: &DAffine3) -> Self {
         if *target_from_source == DAffine3::IDENTITY {
             return self;
@@ -184,7 +184,7 @@ impl Hair {
 }
 
 impl Attributes {
-    /// Strands whose id a strand before them has.
+    /// Number of strands that repeat the id of an earlier strand.
     pub fn repeated_ids(&self) -> usize {
         let ids = self.id.as_deref().unwrap_or_default();
         ids.len() - ids.iter().collect::<BTreeSet<_>>().len()

@@ -1,4 +1,4 @@
-//! The head: its mesh, the head ellipsoid E, and how far a point is from the skin (the paper, section 3.1).
+//! The head: its mesh, the head ellipsoid E, and the distance to the skin (section 3.1 of the paper).
 
 mod fit;
 mod openings;
@@ -22,18 +22,18 @@ const MOST_SAMPLES: f32 = 2e7;
 /// Mean half axis of the heads that can be worked with (cm).
 const HALF_AXES: [f32; 2] = [1e-3, 1e5];
 
-/// A head (and what of neck and shoulders comes with it) in head space, cm.
+/// A head in head space (cm), with neck and shoulders if the mesh has them.
 #[derive(Clone, Debug)]
 pub struct Head {
-    /// Its surface, which may be open where the neck or the arms are cut off.
+    /// The surface. It may be open where neck or arms are cut off.
     pub mesh: Mesh,
-    /// E: lies on the part of the head where hair grows, not on the face.
+    /// E. It fits the part of the head where hair grows, not the face.
     pub ellipsoid: Ellipsoid,
-    /// How the triangles lay in the mesh that it was made of.
+    /// The orientation of the triangles in the original mesh.
     pub orientation: Orientation,
-    /// Where its surface is open.
+    /// The openings of the surface.
     pub openings: Vec<Opening>,
-    /// Whether it is the bust of `nabiki_groom`, whose face is known where it is drawn. Whoever makes a head says so.
+    /// Whether it is the bust of `nabiki_groom`, whose face a renderer knows. The creator of a head sets this.
     pub is_builtin: bool,
     /// Lowest and highest corner of the mesh: beyond it nothing is inside.
     bounds: [Vec3; 2],
@@ -44,23 +44,23 @@ impl Head {
     /// The same head with another ellipsoid.
     ///
     /// # Errors
-    /// If it is not an ellipsoid.
+    /// If it is not a valid ellipsoid.
     pub fn with_ellipsoid(self, ellipsoid: Ellipsoid) -> Result<Self, SettingError> {
         check_ellipsoid(&ellipsoid)?;
         Ok(Self { ellipsoid, ..self })
     }
 
-    /// Any head from its mesh in cm, face toward +x; a person's head has half axes of about 9, which tells a wrong unit. Without an `ellipsoid`, E is fitted to the skull above the ears and
-    /// behind the face, whatever the size of the head and where the origin lies.
+    /// A head from a mesh in cm whose face looks along +x. The half axes of a person's head are about 9 cm; other sizes
+    /// suggest a wrong unit. Without an `ellipsoid`, E is fitted to the skull above the ears and behind the face, for
+    /// any size and origin of the head.
     ///
-    /// Triangles that face inward are turned ([`Mesh::turn_outward`]), and [`orientation`](Self::orientation) says how
-    /// many.
+    /// Triangles that face inward are turned ([`Mesh::turn_outward`]); [`orientation`](Self::orientation) counts them.
     ///
     /// # Errors
-    /// If there are no triangles, an index names no vertex, a coordinate (of texture, too) is not finite, not all
-    /// triangles of a mesh with texture coordinates have them, E is not an ellipsoid, nothing like a skull is found at
-    /// the top of the mesh, or it is a sheet that encloses nothing. The refused thing is then `head.mesh` or a part of
-    /// `head.ellipsoid`, the value says what of it: naming the file is left to the caller.
+    /// If there are no triangles; an index or a coordinate (including texture coordinates) is invalid; only some
+    /// triangles have texture coordinates; E is not an ellipsoid; no skull is found at the top of the mesh; or the mesh
+    /// is a sheet that encloses no space. The error names `head.mesh` or a part of `head.ellipsoid`, and its value
+    /// describes the problem. The caller adds the name of the file.
     pub fn from_mesh(mut mesh: Mesh, ellipsoid: Option<Ellipsoid>) -> Result<Self, SettingError> {
         check_mesh(&mesh)?;
         let orientation = mesh.turn_outward();
@@ -77,13 +77,14 @@ impl Head {
         Ok(Self::assemble(mesh, ellipsoid, orientation))
     }
 
-    /// A head that [`from_mesh`](Self::from_mesh) has made before, at once: of its mesh, whose triangles face outward, its E and the
-    /// [samples](SkinDistance::samples) of its [`skin`](Self::skin), all in head space, cm. That they belong together is left to the
-    /// caller. The mesh counts as closed: of one that is not, give [`orientation`](Self::orientation) and [`openings`](Self::openings),
-    /// too.
+    /// A head that [`from_mesh`](Self::from_mesh) made before, without the computation. It takes the mesh (triangles
+    /// facing outward), E, and the [samples](SkinDistance::samples) of its [`skin`](Self::skin), all in head space
+    /// (cm). The caller guarantees that they belong together. The mesh counts as closed; if it is open, set
+    /// [`orientation`](Self::orientation) and [`openings`](Self::openings), too.
     ///
     /// # Errors
-    /// If mesh or E is one that [`from_mesh`](Self::from_mesh) refuses as such, or the samples [cannot be read](Samples::check).
+    /// If [`from_mesh`](Self::from_mesh) would refuse the mesh or E, or if the samples [cannot be
+    /// read](Samples::check).
     pub fn from_samples(mesh: Mesh, ellipsoid: Ellipsoid, samples: Samples) -> Result<Self, SettingError> {
         check_mesh(&mesh)?;
         check_ellipsoid(&ellipsoid)?;
@@ -97,7 +98,7 @@ impl Head {
     /// The ellipsoid E that [`from_mesh`](Self::from_mesh) would fit to this mesh.
     ///
     /// # Errors
-    /// As there.
+    /// As for [`from_mesh`](Self::from_mesh).
     pub fn fit(mesh: &Mesh) -> Result<Ellipsoid, SettingError> {
         check_mesh(mesh)?;
         let mut mesh = mesh.clone();
@@ -125,17 +126,17 @@ impl Head {
         self.skin.at(p)
     }
 
-    /// The distance to the skin, to be shared with a [`Body`](crate::body::Body) that hair does not enter.
+    /// The distance to the skin, for sharing with a [`Body`](crate::body::Body).
     pub fn skin(&self) -> &Arc<SkinDistance> {
         &self.skin
     }
 
-    /// The same as [`distance`](Self::distance), not read from samples but from the mesh: about a hundred times dearer.
+    /// Like [`distance`](Self::distance), but computed from the mesh instead of samples. About 100 times slower.
     pub fn exact_distance(&self, p: Vec3) -> f32 {
         self.skin.exact(p)
     }
 
-    /// How deep `p` lies inside the skin (cm); 0 outside. Cheap anywhere, unlike the distance of points far away.
+    /// How deep `p` lies inside the skin (cm); 0 outside. Fast everywhere, unlike the distance of distant points.
     pub fn depth(&self, p: Vec3) -> f32 {
         let [low, high] = self.bounds;
         let may_be_inside = p.cmpge(low).all() && p.cmple(high).all();
@@ -147,7 +148,8 @@ impl Head {
         self.depth(p) > 0.0
     }
 
-    /// The unit direction in which the distance to the skin grows fastest at `p`: on the skin, its outward normal.
+    /// The unit vector along which the distance to the skin grows fastest at `p`. On the skin, it is the outward
+    /// normal.
     pub fn outward(&self, p: Vec3) -> Vec3 {
         self.skin.gradient(p).try_normalize().unwrap_or_else(|| self.ellipsoid.gradient(p).normalize_or(Vec3::Y))
     }

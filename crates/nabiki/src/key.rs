@@ -1,11 +1,11 @@
-//! The name of a setting, as a scene file spells it.
+//! The name of a setting in a scene file.
 
 use std::borrow::Cow;
 use std::convert::Infallible;
 use std::fmt;
 use std::str::FromStr;
 
-/// A setting's name: `force[1].vector`. Empty where no one setting is meant.
+/// A setting's name, such as `force[1].vector`. Empty if no particular setting is meant.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Key(Vec<Step>);
 
@@ -19,7 +19,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// The name, unless it is a place in a list.
+    /// The name, or `None` for an entry of a list.
     pub fn name(&self) -> Option<&str> {
         match self {
             Self::Name(name) => Some(name),
@@ -34,22 +34,22 @@ impl Key {
         &self.0
     }
 
-    /// Whether it names nothing.
+    /// Whether the key is empty.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether the setting is that of `table`, or lies within it.
+    /// Whether the setting is `table` or lies within it.
     pub fn is_within(&self, table: &Key) -> bool {
         self.0.starts_with(&table.0)
     }
 
-    /// The last name in it, without places in lists.
+    /// The last name, without entries of lists.
     pub fn last_name(&self) -> &str {
         self.0.iter().rev().find_map(Step::name).unwrap_or_default()
     }
 
-    /// The same one step deeper.
+    /// The key one step deeper.
     #[must_use]
     pub fn below(mut self, step: Step) -> Self {
         self.0.push(step);
@@ -128,7 +128,7 @@ impl PartialEq<String> for Key {
     }
 }
 
-/// Where a check is: a [`Key`] on the way down, made only of what is refused.
+/// The position of a check in the settings. A [`Key`] is built from it only for an error.
 #[derive(Clone, Copy, Debug)]
 pub enum Place<'a> {
     /// A table by its name.

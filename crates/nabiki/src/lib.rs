@@ -3,10 +3,10 @@
 //!
 //! # Spaces and units
 //!
-//! *Head space*: right-handed, y up, the face looks along +x, so +z is the character's right-hand side; the origin
-//! lies within the skull (the centre of the head ellipsoid unless said otherwise). Lengths are centimetres, angles
-//! radians, time is counted in frames. Forces are directions with a strength, not newtons: only their product with
-//! the gain c_i of equation (8) moves hair.
+//! *Head space* is right-handed with y up. The face looks along +x, so +z is the character's right. The origin lies
+//! within the skull: at the centre of the head ellipsoid, unless documented otherwise. Lengths are in centimetres,
+//! angles in radians and times in frames. Forces have a direction and a strength, but no physical unit. Only their
+//! product with the gain c_i of equation (8) moves hair.
 //!
 //! # Words
 //!
@@ -35,11 +35,11 @@
 //! | unknown | what may change to meet a wish |
 //! | twin | one of the two steppers of a form: the readable f64 one and the fast one |
 //!
-//! # Where to begin
+//! # Where to start
 //!
-//! [`Head::from_mesh`] and [`Strands::push`] take a head and hair of one's own, the crate `nabiki_groom` grows some;
-//! [`Simulation`](dynamics::Simulation) moves it frame by frame, as an engine does (`crates/nabiki/examples/engine.rs`), and
-//! [`Timeline`](dynamics::Timeline) has all frames at hand, as an editor does.
+//! [`Head::from_mesh`] and [`Strands::push`] take your own head and hair; the crate `nabiki_groom` grows hair.
+//! [`Simulation`](dynamics::Simulation) moves it one frame at a time, as an engine needs it
+//! (`crates/nabiki/examples/engine.rs`). [`Timeline`](dynamics::Timeline) computes all frames, as an editor needs them.
 //!
 //! # A program
 //!
@@ -108,7 +108,7 @@ mod vector;
 
 pub use ellipsoid::Ellipsoid;
 pub use error::SettingError;
-/// The vectors of this crate's interface: of whichever of the versions that it allows the program has.
+/// The vector types in this crate's interface, in the version of `glam` that your program resolves.
 pub use glam;
 pub use hair::Hair;
 pub use head::Head;
@@ -117,6 +117,6 @@ pub use pose::Pose;
 pub use profile::Profile;
 pub use strands::Strands;
 
-/// What the method computes, by number. It is raised when the same scene moves otherwise than before, be it by a bit:
-/// motion that was computed by another version is then known as such.
+/// Version of the computed motion. It increases whenever the same scene moves differently, even by one bit. Caches and
+/// saved states store it, so motion of another version is recognised.
 pub const METHOD_VERSION: u32 = 2;

@@ -1,18 +1,19 @@
-//! Locks: neighbouring strands that move together, and how locks differ.
+//! Locks: neighbouring strands that move together, and how they differ.
 //!
-//! Which lock a strand belongs to depends on its root alone, so a preview has the locks of the whole.
+//! The lock of a strand depends only on its root, so a preview has the same locks as all the hair.
 
 use glam::{DVec3, IVec3, Vec3};
 
 use crate::chance::Chance;
 use crate::settings;
 
-/// Where locks are: their middles are scattered over space, one in each cell of a grid, and a strand belongs to the middle nearest to its root.
+/// The locks of a groom. Their centres are scattered over space, one in each cell of a grid. A strand belongs to the
+/// centre nearest to its root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Locks {
-    /// Edge of a cell (cm), which is about how wide a lock is at the scalp.
+    /// Edge of a cell (cm), about the width of a lock at the scalp.
     pub size: f32,
-    /// Seed of the middles, and of the chance of every lock and strand.
+    /// Seed of the centres and of the random numbers of locks and strands.
     pub seed: u64,
 }
 
@@ -25,9 +26,9 @@ impl Default for Locks {
 /// A lock.
 #[derive(Clone, Copy, Debug)]
 pub struct Lock {
-    /// Its middle (head space, cm).
+    /// The centre (head space, cm).
     pub middle: Vec3,
-    /// What differs from lock to lock is drawn from this.
+    /// The random numbers of this lock.
     pub chance: Chance,
 }
 
@@ -82,14 +83,14 @@ settings! {
     }
 }
 
-/// How one strand differs from what the settings say.
+/// How one strand differs from the settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Own {
-    /// Times the air: the field pushes it by as much more, and it settles by as much faster.
+    /// Factor on the air: on the force of the field and on how fast the strand settles.
     pub air: f64,
-    /// Times the stiffness.
+    /// Factor on the stiffness.
     pub stiffness: f64,
-    /// How much the wind on it swells and turns.
+    /// How much the wind on the strand varies in strength and direction.
     pub flutter: f64,
     /// In which rhythm: that of its swelling, and of the three axes that it turns about.
     pub(crate) rhythm: [[Wave; 2]; 4],
@@ -137,7 +138,7 @@ impl Own {
 }
 
 impl LockVariation {
-    /// How a strand of this lock differs, of which chance is given.
+    /// How the strand of this lock with these random numbers differs.
     pub fn of(&self, lock: &Lock, strand: Chance) -> Own {
         let [lock, strand] = [lock.chance, strand].map(|chance| chance.again(self.seed));
         let factor = |spread: f32, channel: u64| {

@@ -11,20 +11,21 @@ use glam::{Vec2, Vec3};
 
 pub use outward::Orientation;
 
-/// An indexed triangle mesh, counter-clockwise seen from outside (head space, cm, unless said otherwise).
+/// An indexed triangle mesh, counter-clockwise seen from outside (head space, cm, unless documented otherwise).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Vertex positions.
     pub positions: Vec<Vec3>,
     /// Indices into `positions`, three for each triangle.
     pub triangles: Vec<[u32; 3]>,
-    /// Texture coordinates of the corners of each of `triangles`, v upward; `None` where the source lacks any of them.
-    /// By corner and not by vertex: at a seam the triangles on its two sides have the vertex at two places of the texture.
+    /// Texture coordinates of the corners of each of `triangles`, v upward. `None` if the source lacks any of them.
+    /// They are per corner because at a seam the triangles on both sides use different coordinates for the same vertex.
     pub corner_uvs: Option<Vec<[Vec2; 3]>>,
 }
 
 impl Mesh {
-    /// Appends a triangle with the texture coordinates of its corners. One without any leaves the whole mesh without.
+    /// Appends a triangle with the texture coordinates of its corners. Without `uvs`, the whole mesh loses its texture
+    /// coordinates.
     pub fn push(&mut self, triangle: [u32; 3], uvs: Option<[Vec2; 3]>) {
         if self.triangles.is_empty() {
             self.corner_uvs = uvs.map(|_| Vec::new());
@@ -36,7 +37,8 @@ impl Mesh {
         self.triangles.push(triangle);
     }
 
-    /// For each vertex the first one at the very same place: itself, but where a seam doubles vertices.
+    /// For each vertex, the index of the first vertex at exactly the same position: itself, except where a seam doubles
+    /// vertices.
     pub(crate) fn first_at_place(&self) -> Vec<u32> {
         let mut first_at: HashMap<[u32; 3], u32> = HashMap::with_capacity(self.positions.len());
         // Adding 0 turns -0 into +0, which lies at the same place.
@@ -44,9 +46,9 @@ impl Mesh {
         self.positions.iter().enumerate().map(|(v, p)| *first_at.entry(place(p)).or_insert(v as u32)).collect()
     }
 
-    /// Unit normals at the vertices: the mean of the adjoining triangles' normals, weighted by the sine of the corner
-    /// over its two edges' lengths (N. Max, "Weights for computing vertex normals from facet normals", 1999). They are
-    /// those of a sphere on any mesh of it, however uneven. A vertex without triangles that have an area gets +y.
+    /// Unit normals of the vertices. Each is the mean of the adjacent triangle normals, weighted by the sine of the
+    /// corner over the lengths of its two edges (N. Max, "Weights for computing vertex normals from facet normals",
+    /// 1999). For any mesh of a sphere they are exact. A vertex without a triangle that has an area gets +y.
     pub fn vertex_normals(&self) -> Vec<Vec3> {
         let mut normals = vec![Vec3::ZERO; self.positions.len()];
         for triangle in &self.triangles {

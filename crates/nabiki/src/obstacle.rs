@@ -1,4 +1,4 @@
-//! Shapes that hair does not enter, as contact, the solver, summaries and pictures see them.
+//! Shapes that hair collides with, as used by contact, solver, summaries and pictures.
 
 mod capsule;
 
@@ -8,42 +8,44 @@ use glam::{Mat3, Vec3};
 
 pub use capsule::Capsule;
 
-/// A shape in its own space (cm), closed or without end, as a half space is: a rigid mesh
-/// ([`SkinDistance`](crate::distance::SkinDistance)), a [`Capsule`], or any other, which may bend from frame to frame. Where that space
-/// is, a [`BodyWay`](crate::body::BodyWay) says.
+/// A shape in its own space (cm), closed or unbounded like a half space: a rigid mesh
+/// ([`SkinDistance`](crate::distance::SkinDistance)), a [`Capsule`], or your own, which may deform from frame to frame.
+/// A [`BodyWay`](crate::body::BodyWay) places that space.
 ///
-/// Contact asks in every frame for many points at once, from many threads: answers depend on the point and the frame alone.
+/// Contact calls this for many points in every frame, from many threads. Results must depend only on the point and the
+/// frame.
 pub trait Obstacle: Debug + Send + Sync {
-    /// The corners of the box that [`read`](Self::read) knows, in all frames: from the shape to the margin of contact at least, which is
-    /// up to 5 cm. They may be infinite.
+    /// The corners of the box in which [`read`](Self::read) returns values, for all frames. It must contain the shape
+    /// and the contact margin, which is at most 5 cm. Corners may be infinite.
     fn reach(&self) -> [Vec3; 2];
 
-    /// Signed distance at a point in a frame, and how that changes; `None` beyond [`reach`](Self::reach), and only there. A distance
-    /// may be too small anywhere, and too large by a twentieth where it is above 4 cm.
+    /// Signed distance at a point in a frame, and its derivatives. `None` outside [`reach`](Self::reach), and only
+    /// there. A distance may be too small anywhere, and up to 5 % too large above 4 cm.
     fn read(&self, p: Vec3, frame: u32) -> Option<Reading>;
 
-    /// How far what is at a point in a frame has come since the frame before (cm). Rigid shapes stay where they are in their space.
+    /// The displacement of the material at a point since the previous frame (cm), in the shape's space. 0 for rigid
+    /// shapes.
     fn moved(&self, _p: Vec3, _frame: u32) -> Vec3 {
         Vec3::ZERO
     }
 
-    /// The farthest that any of it has come since the frame before (cm).
+    /// The largest displacement of any part since the previous frame (cm).
     fn farthest_moved(&self, _frame: u32) -> f32 {
         0.0
     }
 
-    /// Hands on numbers that tell it from other shapes: caches and saved states know it by them.
+    /// Passes numbers that distinguish this shape from others to `hand_on`. Caches and saved states use them.
     fn identify(&self, hand_on: &mut dyn FnMut(&[f32]));
 }
 
-/// What an [`Obstacle`] is like at a point.
+/// The distance to an [`Obstacle`] at a point, with its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Signed distance (cm), negative inside.
     pub distance: f32,
-    /// Its gradient, outward; of about unit length.
+    /// Its gradient, pointing outward, of about unit length.
     pub gradient: Vec3,
-    /// How the gradient changes (1 / cm). Exact derivatives need it, a step does not.
+    /// Its second derivatives (1/cm). Exact derivatives of the motion need them; a step does not.
     pub hessian: Mat3,
 }
 

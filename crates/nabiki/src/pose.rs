@@ -1,23 +1,23 @@
-//! Where the head is in the world.
+//! The pose of the head in the world.
 
 use glam::{Affine3A, Quat, Vec3};
 
 use crate::error::SettingError;
 
-/// Where the head is in one frame: world = `rotation` head + `position_cm`.
+/// The pose of the head in one frame: world = `rotation` head + `position_cm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Origin of head space in the world (cm; y up, right-handed).
     pub position_cm: Vec3,
-    /// Turns head space into the world.
+    /// Rotation from head space to the world.
     pub rotation: Quat,
 }
 
 impl Pose {
-    /// The pose of a head that stands still: head space is the world.
+    /// The pose of a head that does not move: head space is the world.
     pub const STILL: Self = Self { position_cm: Vec3::ZERO, rotation: Quat::IDENTITY };
 
-    /// Whether all its numbers are finite and its rotation is one: of length 1, to 1e-3.
+    /// Whether all numbers are finite and the rotation has length 1, within 1e-3.
     pub fn is_valid(&self) -> bool {
         self.position_cm.is_finite() && self.rotation.is_finite() && (self.rotation.length() - 1.0).abs() < 1e-3
     }
@@ -27,7 +27,8 @@ impl Pose {
         self.rotation.inverse() * Vec3::Y
     }
 
-    /// Where the head was before this pose, if it came here as it goes on to `next`. The pose itself where it stands still.
+    /// The previous pose if the motion from this pose to `next` is continued backward. If `next` is the same, the pose
+    /// itself.
     pub fn continued_back_from(&self, next: &Self) -> Self {
         if self == next {
             return *self;
@@ -37,8 +38,8 @@ impl Pose {
         Self { position_cm, rotation: (turn * self.rotation).normalize() }
     }
 
-    /// The pose at a part of the way to `next`, 0..1: for steps that lie between two known poses. Places go straight, rotations by
-    /// the smaller turn at an even rate.
+    /// Interpolates to `next` (`part` in 0..1), for steps between two known poses. Positions are interpolated linearly,
+    /// rotations along the shorter arc at constant speed.
     #[must_use]
     pub fn between(&self, next: &Self, part: f32) -> Self {
         Self {
@@ -47,7 +48,7 @@ impl Pose {
         }
     }
 
-    /// Takes points of head space into the world (cm).
+    /// Transforms points from head space to the world (cm).
     #[must_use]
     pub fn world_from_head(&self) -> Affine3A {
         Affine3A::from_rotation_translation(self.rotation, self.position_cm)

@@ -1,4 +1,4 @@
-//! A strength along a strand.
+//! A setting that varies along a strand.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -10,22 +10,22 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::error::SettingError;
 use crate::setting::{Datum, Kind, Place, Range, Value, refused};
 
-/// A setting along a strand: one number, or a few from root to tip, evenly spread over the strand's length and joined by
-/// straight lines. `N`: what is taken for a number.
+/// A setting along a strand: one number, or several from root to tip, evenly spaced by length and interpolated
+/// linearly. `N` is the type of the numbers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Profile<N = f32> {
     /// The same from root to tip.
     Even(N),
-    /// The first at the root, the last at the tip.
+    /// The first applies at the root, the last at the tip.
     RootToTip(Vec<N>),
 }
 
 impl Profile {
-    /// The most numbers that a list may have.
+    /// Largest number of values in a list.
     pub const MOST: usize = 64;
 
-    /// The value at a part of the strand's length, 0 at the root and 1 at the tip.
+    /// The value at a fraction of the strand's length: 0 at the root, 1 at the tip.
     pub fn at(&self, along: f64) -> f64 {
         let values = self.values();
         let place = along.clamp(0.0, 1.0) * (values.len() - 1) as f64;
@@ -52,7 +52,7 @@ impl Profile {
         self.map(|&value| (f64::from(value) * factor) as f32)
     }
 
-    /// The largest of its numbers.
+    /// The largest number.
     pub fn largest(&self) -> f32 {
         self.values().iter().copied().fold(f32::NEG_INFINITY, f32::max)
     }
@@ -67,7 +67,7 @@ impl<N> Profile<N> {
         }
     }
 
-    /// The same of other numbers.
+    /// The profile with `number` applied to each value.
     pub fn map<M>(&self, number: impl FnMut(&N) -> M) -> Profile<M> {
         match self {
             Self::Even(value) => Profile::Even({ number }(value)),

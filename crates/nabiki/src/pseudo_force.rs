@@ -1,4 +1,4 @@
-//! Pseudo-force: wind that would press hair into the head is made weaker, section 3.2.2 and equation (4).
+//! Pseudo-force: wind that would press hair into the head is weakened (section 3.2.2 and equation (4)).
 
 use glam::{DVec3, Vec3};
 
@@ -26,7 +26,7 @@ fn table_1() -> Vec<f32> {
 }
 
 impl PseudoForce {
-    /// No pseudo-force: every eps_i is 1, so that Gamma is without effect.
+    /// No pseudo-force: every eps_i is 1, so Gamma has no effect.
     pub fn off() -> Self {
         Self { alpha: -1.0, coefficients: vec![1.0] }
     }
@@ -38,8 +38,8 @@ impl PseudoForce {
         refused(&at.key("coefficients"), "[]", "give at least one eps_i (1.0 switches the pseudo-force off)")
     }
 
-    /// eps_i for a `position` along the strand that is i itself for the paper's segments, and between their
-    /// numbers for finer ones: that of the nearest number.
+    /// eps_i for a `position` along the strand, rounded to the nearest i. For the paper's segments the position is i
+    /// itself; finer segments lie between these numbers.
     pub fn coefficient(&self, position: f64) -> f32 {
         let i = position.round().max(1.0) as usize;
         self.coefficients[(i - 1).min(self.coefficients.len() - 1)]
@@ -51,14 +51,15 @@ impl PseudoForce {
 pub struct Gamma {
     /// The head ellipsoid E.
     pub ellipsoid: Ellipsoid,
-    /// C is E scaled by this, above 1.
+    /// C is E scaled by this factor, above 1.
     pub shell: f32,
     /// The cosine alpha.
     pub alpha: f32,
 }
 
 impl Gamma {
-    /// Whether p lies in C, outside E, where the outward normal D(p) looks against `force`, as (4) is written.
+    /// Whether p lies inside C and outside E, where the outward normal D(p) points against `force` as equation (4)
+    /// requires.
     pub fn contains(&self, p: DVec3, force: Vec3) -> bool {
         let (center, half_axes) = (self.ellipsoid.center.as_dvec3(), self.ellipsoid.half_axes.as_dvec3());
         let (alpha, shell, force) = (f64::from(self.alpha), f64::from(self.shell), force.as_dvec3());

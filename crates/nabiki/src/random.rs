@@ -4,7 +4,7 @@
 /// 2^64 over the golden ratio, odd: the step between the counters of one stream.
 pub const GOLDEN_GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// The random number of a counter: one step of a SplitMix64 whose state is `counter`.
+/// The random number of a counter: one step of SplitMix64 from the state `counter`.
 pub fn mix(counter: u64) -> u64 {
     finalise(counter.wrapping_add(GOLDEN_GAMMA))
 }
@@ -16,7 +16,7 @@ pub fn finalise(z: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// The upper bits of a random number as one in [0, 1).
+/// A random number as a float in [0, 1), from its upper bits.
 pub fn unit(random: u64) -> f64 {
     (random >> 11) as f64 / (1_u64 << 53) as f64
 }

@@ -1,14 +1,15 @@
-//! Values over frames, averaged by a bell.
+//! Smoothing of values over frames with a bell.
 
-/// The largest deviation of the bell that is taken (frames).
+/// Largest standard deviation of the bell (frames).
 pub const MOST: f32 = 240.0;
 
 /// Deviation (steps) from which on a bell is smooth enough to be widened by steps twice as long: what these would leave at a
 /// step's own wavelength it has weakened by exp(-8 pi^2).
 const SMOOTH: f64 = 4.0;
 
-/// `values`, one a frame, averaged by a bell of this deviation (frames); beyond either end they go on mirrored. With 0 they
-/// are as they were. `mean(before, now, after, b)` is (1 - 2 b) now + b before + b after.
+/// Smooths `values`, one per frame, with a bell of this standard deviation (frames). Beyond both ends, values are
+/// mirrored. A deviation of 0 returns them unchanged. `mean(before, now, after, b)` is (1 - 2 b) now + b before + b
+/// after.
 pub fn smoothed<T: Copy>(values: &[T], deviation: f64, mean: impl Fn(T, T, T, f64) -> T) -> Vec<T> {
     let mut now = values.to_vec();
     if deviation == 0.0 {

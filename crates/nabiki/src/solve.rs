@@ -1,8 +1,9 @@
-//! Which wind makes the hair do this? Wishes about single strands in single frames, met by the wind that comes nearest.
+//! Which wind makes the hair do this? The solver finds the wind that comes nearest to wishes for single strands in
+//! single frames.
 //!
-//! A [`Problem`] is hair with what moves it, [`Wish`]es of where some of its nodes should be, and the [`Unknown`]s that may
-//! change for it. [`Solver`] finds them; [`Drag`] follows a wish that moves, a little each time it is asked. What is solved,
-//! and what is differentiated how, is in docs/solve.md.
+//! A [`Problem`] has the hair, what moves it, the [`Wish`]es (where some of its nodes should be), and the [`Unknown`]s
+//! that may change. [`Solver`] searches for them. [`Drag`] follows a moving wish, a little with each call.
+//! docs/solve.md describes what is solved and how it is differentiated.
 
 mod aims;
 mod cut;

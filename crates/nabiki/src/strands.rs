@@ -6,8 +6,7 @@ use crate::error::SettingError;
 
 /// The first point that is NaN or infinite.
 ///
-/// Where all are finite, as they should be, this keeps up with the memory: no exponent is all ones, a greatest value
-/// without a branch.
+/// If all points are finite, it runs at memory speed: it tests exponents with a branch-free maximum.
 pub fn not_finite(points: &[Vec3]) -> Option<usize> {
     let numbers: &[f32] = bytemuck::cast_slice(points);
     if numbers.iter().fold(0, |greatest, x| (x.to_bits() & 0x7fff_ffff).max(greatest)) < 0x7f80_0000 {
@@ -16,7 +15,7 @@ pub fn not_finite(points: &[Vec3]) -> Option<usize> {
     points.iter().position(|p| !p.is_finite())
 }
 
-/// The lowest and the highest corner of the points' box; infinite for no points. NaN counts for nothing.
+/// The corners of the bounding box. Infinite for no points; NaN is ignored.
 pub fn bounds(points: &[Vec3]) -> [Vec3; 2] {
     // Eight boxes side by side, so that none waits for its own last point, and plain comparisons, which are one
     // instruction where the greatest of two floats is several.
@@ -36,8 +35,8 @@ pub fn bounds(points: &[Vec3]) -> [Vec3; 2] {
     [all(low, f32::INFINITY, &lower), all(high, f32::NEG_INFINITY, &higher)]
 }
 
-/// Refuses to cut so many strands into so many segments each that they have more points than [`Strands`] can count; `name` is
-/// where the number of segments was given.
+/// Refuses numbers of strands and segments that need more points than [`Strands`] can count. `name` is the setting of
+/// the number of segments.
 ///
 /// # Errors
 /// Names the number of segments.
@@ -49,7 +48,7 @@ pub fn check_points(name: &str, segments: usize, strands: usize) -> Result<(), S
     }
 }
 
-/// The length of one strand, the sum of its segments' (in the unit of its points).
+/// The length of one strand (in the unit of its points).
 pub fn length(strand: &[Vec3]) -> f32 {
     strand.windows(2).map(|w| w[0].distance(w[1])).sum()
 }
@@ -65,17 +64,17 @@ pub struct Strands {
 }
 
 impl Strands {
-    /// No strands, with room for `strands` of `points` points in all.
+    /// An empty set with room for `strands` strands of `points` points in total.
     pub fn with_capacity(strands: usize, points: usize) -> Self {
         let mut starts = Vec::with_capacity(strands + 1);
         starts.push(0);
         Self { starts, points: Vec::with_capacity(points) }
     }
 
-    /// Takes over arrays read elsewhere: strand `s` owns `points[starts[s]..starts[s + 1]]`.
+    /// Builds strands from arrays: strand `s` owns `points[starts[s]..starts[s + 1]]`.
     ///
     /// # Panics
-    /// If `starts` does not begin with 0, falls anywhere, or does not end with the number of points.
+    /// If `starts` does not begin with 0, decreases anywhere, or does not end with the number of points.
     pub fn from_parts(starts: Vec<u32>, points: Vec<Vec3>) -> Self {
         assert!(starts.first() == Some(&0), "starts must begin with 0");
         assert!(starts.is_sorted(), "starts must not fall");
@@ -86,7 +85,7 @@ impl Strands {
     /// Appends one strand, root first.
     ///
     /// # Panics
-    /// If the set would hold 2^32 points or more.
+    /// If the set would have 2^32 points or more.
     pub fn push(&mut self, strand: impl IntoIterator<Item = Vec3>) {
         if self.starts.is_empty() {
             self.starts.push(0);
@@ -100,7 +99,7 @@ impl Strands {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Whether there is no strand.
+    /// Whether there are no strands.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -116,17 +115,17 @@ impl Strands {
         &mut self.points[range]
     }
 
-    /// Where the points of strand `s` lie in [`points`](Self::points).
+    /// The range of strand `s` in [`points`](Self::points).
     pub fn range(&self, s: usize) -> std::ops::Range<usize> {
         self.starts[s] as usize..self.starts[s + 1] as usize
     }
 
-    /// Every strand in turn, root first.
+    /// All strands, root first.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[Vec3]> {
         self.starts.windows(2).map(|w| &self.points[w[0] as usize..w[1] as usize])
     }
 
-    /// Offsets of the strands in [`points`](Self::points), one more than there are strands (empty for no strands).
+    /// Offsets of the strands in [`points`](Self::points): one more than there are strands, or none without strands.
     pub fn starts(&self) -> &[u32] {
         &self.starts
     }
@@ -136,12 +135,13 @@ impl Strands {
         &self.points
     }
 
-    /// Points between those of the same strands some time before and these, for pictures between two steps: `part`, 0..=1, of the
-    /// way (head space, cm). Roots go straight; each segment turns from its direction then to that of now, and keeps its length, of
-    /// which a mean of points loses up to all. A segment that turned right about takes the direction that is nearer in time.
+    /// Interpolates between earlier points of the same strands and these, for pictures between two steps (head space,
+    /// cm). `part` is 0..=1. Roots move linearly. Each segment turns from its earlier to its current direction and
+    /// keeps its length, which linear interpolation of points would not. A segment that turned by exactly half a turn
+    /// takes the direction nearer in time.
     ///
     /// # Panics
-    /// If there are not as many points in each as these strands have.
+    /// If the slices do not have as many points as these strands.
     pub fn between(&self, before: &[Vec3], part: f32, points: &mut [Vec3]) {
         assert_eq!(before.len(), self.points.len(), "points before, of the same strands");
         assert_eq!(points.len(), self.points.len(), "room for every point");
@@ -165,12 +165,12 @@ impl Strands {
         }
     }
 
-    /// All points, strand after strand; their number and owners stay as they are.
+    /// All points, strand after strand, for editing in place.
     pub fn points_mut(&mut self) -> &mut [Vec3] {
         &mut self.points
     }
 
-    /// Turns the strands round for which `which` holds.
+    /// Reverses the strands for which `which` is true.
     pub fn turn(&mut self, which: &[bool]) {
         for (s, _) in which.iter().enumerate().filter(|(_, turned)| **turned) {
             self.strand_mut(s).reverse();
@@ -182,12 +182,12 @@ impl Strands {
         self.iter().map(length)
     }
 
-    /// Number of segments of all strands.
+    /// Total number of segments.
     pub fn segment_count(&self) -> usize {
         self.points.len() - self.len()
     }
 
-    /// The strands named by `indices`, in that order.
+    /// The strands with these `indices`, in that order.
     pub fn select(&self, indices: &[usize]) -> Self {
         let mut chosen = Self::with_capacity(indices.len(), 0);
         for &s in indices {

@@ -1,24 +1,24 @@
-//! Even subsets: the farthest point first.
+//! Even subsets by the farthest-first order.
 //!
-//! A preview draws 200 to 300 of the strands (the paper, section 5), spread over the whole scalp. Each next point is
-//! the one farthest from all chosen before, so that the first n of the order are an even choice for every n.
+//! A preview draws 200 to 300 of the strands, spread over the whole scalp (section 5 of the paper). Each next point is
+//! the one farthest from all points chosen before. The first n of the order are therefore an even choice for every n.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use glam::{IVec3, Vec3};
 
-/// Indices of `count` roots spread evenly over where `roots` are (any unit), the first root first, then always the
-/// one farthest from those already chosen (the lower index of two).
+/// Indices of `count` roots, spread evenly over `roots` (any unit): first the first root, then always the root farthest
+/// from those already chosen (on a tie, the lower index).
 ///
-/// A smaller count gives the beginning of a larger one's answer. Of roots that lie on top of each other one is taken
-/// until nothing else is left. All roots are returned, in this order, when `count` is their number or more; roots with
-/// a coordinate that is not finite come last.
+/// A smaller count returns the beginning of a larger one's result. Of coincident roots, one is taken until nothing else
+/// is left. If `count` is at least their number, all roots are returned in this order. Roots with coordinates that are
+/// not finite come last.
 pub fn evenly(roots: &[Vec3], count: usize) -> Vec<usize> {
     evenly_while(roots, count, &|| true).unwrap_or_default()
 }
 
-/// The same for whoever may want it no more: again and again `goes_on` is asked whether to go on. None where it was not to.
+/// Like [`evenly`], but calls `goes_on` regularly and returns `None` if that returns `false`.
 pub fn evenly_while(roots: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> Option<Vec<usize>> {
     let count = count.min(roots.len());
     if roots.iter().all(|root| root.is_finite()) {
@@ -35,7 +35,7 @@ pub fn evenly_while(roots: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) ->
 /// Points that are looked at between two questions whether to go on: some milliseconds.
 const LOOKED_AT: usize = 1 << 20;
 
-/// Bytes that putting points in order takes for each, at least: its cell, its number there, its place and its gap.
+/// Least memory per point while sorting (bytes): its cell, its index there, its position and its gap.
 pub const BYTES_A_POINT: usize = size_of::<usize>() + size_of::<u32>() + size_of::<Vec3>() + size_of::<f32>();
 
 /// The cells of a grid over points on a surface, with how far each point is from the nearest chosen one.
