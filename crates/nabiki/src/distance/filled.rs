@@ -16,11 +16,11 @@ const FINE_WITHIN: std::ops::RangeInclusive<f32> = -1.0..=4.0;
 const ROUNDS: usize = 2;
 
 impl SkinDistance {
-    /// The same surface with every fold filled that a ball of this radius does not reach into (its closing by the ball),
-    /// sampled with steps of `spacing` through the same box. Nowhere does it lie within the surface itself; where that is
-    /// convex it lies up to two fifths of a step outside of it.
+    /// The same surface with the folds filled that a ball of this radius does not reach (its closing by the ball),
+    /// sampled with steps of `spacing` in the same box. It never lies inside the original surface. Where that is
+    /// convex, it lies up to 40 % of a step outside.
     ///
-    /// The distance to the places that a ball's centre can reach solves the eikonal equation, which is swept over the
+    /// The distance to the points that the ball's centre can reach solves the eikonal equation, which is swept over the
     /// samples (H. Zhao, "A fast sweeping method for eikonal equations", 2005).
     pub fn filled(&self, radius: f32, spacing: f32) -> Self {
         let [low, high] = self.sampled_box();

@@ -39,7 +39,7 @@ impl SkinDistance {
         Some(interpolated(corners, Vec3::new(places.t[0][n], places.t[1][n], places.t[2][n])))
     }
 
-    /// The corners of the box that was sampled.
+    /// The corners of the sampled box.
     pub fn sampled_box(&self) -> [Vec3; 2] {
         let Samples { low, cell, nodes, mirrored, .. } = &self.samples;
         let high = *low + *cell * (*nodes - 1).as_vec3();

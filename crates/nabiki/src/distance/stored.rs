@@ -1,4 +1,4 @@
-//! Distance that was sampled before: what there is to store of it, and what of that is refused.
+//! Stored samples of a distance, and the check when they are read.
 
 use std::sync::OnceLock;
 
@@ -20,22 +20,22 @@ pub struct Samples {
     pub cell: f32,
     /// Coarse nodes along each axis, at least 2: one more than there are cells.
     pub nodes: UVec3,
-    /// Whether they stand for their mirror images at z < 0, too.
+    /// Whether the samples are mirrored to z < 0.
     pub mirrored: bool,
     /// Distance at the coarse nodes, x fastest.
     pub coarse: Vec<f32>,
-    /// For each coarse cell, x fastest, its block in `fine`, or [`COARSE`] for one far from the skin.
+    /// For each coarse cell, x fastest, the index of its block in `fine`, or [`COARSE`] for a cell far from the skin.
     pub block_of: Vec<u32>,
-    /// Distance at the fine nodes of a cell, those on its sides included, x fastest: [`EDGE`] along each axis.
+    /// Distance at the fine nodes of a cell including its faces, x fastest: [`EDGE`] along each axis.
     pub fine: Vec<[f32; EDGE * EDGE * EDGE]>,
 }
 
 impl Samples {
-    /// Refuses what cannot be read: a grid without a cell, lists of other lengths than its nodes and cells, a block that is
-    /// not there, anything that is not finite.
+    /// Refuses grids without cells, lists whose lengths do not match nodes and cells, blocks that do not exist, and
+    /// numbers that are not finite.
     ///
     /// # Errors
-    /// Names the field, as `samples.coarse`.
+    /// Names the field, such as `samples.coarse`.
     pub fn check(&self) -> Result<(), SettingError> {
         let refused = |field: &str, value: String, remedy: String| {
             Err(SettingError::new(format!("samples.{field}"), value, remedy))
@@ -72,18 +72,18 @@ impl Samples {
 }
 
 impl SkinDistance {
-    /// The distance to `mesh` where it was sampled before, as [`samples`](Self::samples) has it: at once, where
-    /// [`new`](Self::new) measures. The mesh is as there, and asked for beyond the sampled box alone; that the samples are
-    /// its own is left to the caller.
+    /// The distance to `mesh` from the [`samples`](Self::samples) of an earlier one, instead of measuring as
+    /// [`new`](Self::new) does. The mesh is used only outside the sampled box. The caller guarantees that the samples
+    /// belong to it.
     ///
     /// # Errors
-    /// As [`Samples::check`].
+    /// As for [`Samples::check`].
     pub fn from_samples(mesh: &Mesh, samples: Samples) -> Result<Self, SettingError> {
         samples.check()?;
         Ok(Self { tree: OnceLock::new(), mesh: mesh.clone(), samples })
     }
 
-    /// What was sampled, to be stored.
+    /// The samples, for storing.
     pub fn samples(&self) -> &Samples {
         &self.samples
     }

@@ -20,37 +20,39 @@ pub fn gain(dynamics: &Dynamics, position: f64, count: f64) -> f64 {
     3.0 * position * d * dt.powi(2) / (2.0 * lambda * k.powi(4) * d.powi(3))
 }
 
-/// A: by how much a force of 1 accelerates hair of this length (cm a frame^2), where a strand is a chain. A rod that is held at its end
-/// turns by 3 A / 2 L for it, which is the gain of its last segment.
+/// A: the acceleration of hair of this length under a force of 1 (cm/frame^2), in the form where a strand is a chain. A
+/// rod held at one end turns by 3 A / 2 L, which is the gain of its last segment.
 pub fn push(dynamics: &Dynamics, length_cm: f64) -> f64 {
     let (dt, lambda) = (dynamics.motion.slowed_time_step(), f64::from(dynamics.motion.linear_density));
     let length = length_cm.max(f64::from(dynamics.motion.inertia_length_floor));
     f64::from(dynamics.segment_length) * dt.powi(2) / (lambda * length.powi(2))
 }
 
-/// The gravity that lets hair of this length (cm) fall as on the earth, 981 cm/s^2 at the frame rate, if nothing is slowed. Table 1's hair
-/// of 18 cm takes about 110 for it at 120 frames a second and 2,800 at 24: the paper's hair moves in slow motion.
+/// The gravity with which hair of this length (cm) falls as on the earth: 981 cm/s^2 at the frame rate, without slow
+/// motion. For 18 cm of hair with the values of Table 1 it is about 110 at 120 frames per second and 2,800 at 24. The
+/// paper's hair therefore moves in slow motion.
 pub fn earth_gravity(dynamics: &Dynamics, length_cm: f64) -> f32 {
     let rate = dynamics.motion.frame_rate * f64::from(dynamics.motion.slow);
     (EARTH_CM_PER_S2 / (rate * rate) / push(dynamics, length_cm)) as f32
 }
 
-/// The stiffness K with which hair of this length (cm) bends under this gravity within so many centimetres, (EI / w)^(1/3) of real hair:
-/// EI = 3/8 A L K d^2 and w = A `gravity` for a centimetre.
+/// The stiffness K with which hair of this length (cm) bends within this distance under this gravity. For real hair
+/// that distance is (EI / w)^(1/3), with EI = 3/8 A L K d^2 and w = A `gravity` for 1 cm.
 pub fn stiffness_of(dynamics: &Dynamics, gravity: f64, length_cm: f64, bends_within_cm: f64) -> f64 {
     8.0 * bends_within_cm.powi(3) * gravity / (3.0 * length_cm * f64::from(dynamics.segment_length).powi(2))
 }
 
-/// The force that carries limp hair of this length (cm) which settles in so many frames at 1 cm/s: F = alpha u / A.
+/// The force that carries limp hair of this length (cm) along at 1 cm/s if it settles in `settle` frames: F = alpha u /
+/// A.
 pub fn carrying_force(dynamics: &Dynamics, length_cm: f64, settle: f64) -> f64 {
     let slow = f64::from(dynamics.motion.slow);
     let (air, speed) = (2.0 / (settle * slow), 1.0 / (dynamics.motion.frame_rate * slow));
     air * speed / push(dynamics, length_cm)
 }
 
-/// Frames of one small swing about a constant force, cos(2 pi / T) = 1 - c |F| / 2: exact for the scheme (7).
+/// Frames of one small swing about a constant force: cos(2 pi / T) = 1 - c |F| / 2. This is exact for the scheme (7).
 ///
-/// NaN where the scheme is unstable, c |F| >= 4; infinite without force.
+/// NaN if the scheme is unstable (c |F| >= 4), infinite without force.
 pub fn period(gain_times_force: f64) -> f64 {
     if gain_times_force >= 4.0 {
         return f64::NAN;
@@ -85,7 +87,7 @@ impl SegmentShape {
 /// Lengths and gains of every segment of one strand, root first. `held`: how many segments from the root on do not move.
 ///
 /// # Errors
-/// Strands without a segment, with coordinates that are no numbers, or with a segment of no length.
+/// Strands without a segment, with coordinates that are not finite, or with a segment of length 0.
 pub(super) fn segment_shapes(
     dynamics: &Dynamics,
     strand: &[glam::Vec3],

@@ -8,7 +8,8 @@ use crate::field::Field;
 use crate::scalar::Vector;
 use crate::strands::Strands;
 
-/// The f64 scalar stepper, twin of [`Simulation`](super::Simulation). A clone moves by itself, and is a saved state.
+/// The scalar f64 stepper, twin of [`Simulation`](super::Simulation). A clone is independent, so it can serve as a
+/// saved state.
 #[derive(Clone, Debug)]
 pub struct Reference(Twin);
 
@@ -19,22 +20,22 @@ enum Twin {
 }
 
 impl Reference {
-    /// Hair at rest in the given shape, at frame 0. See [`Simulation::new`](super::Simulation::new).
+    /// Hair at rest in this shape, at frame 0. See [`Simulation::new`](super::Simulation::new).
     ///
     /// # Errors
-    /// As [`Simulation::new`](super::Simulation::new).
+    /// As for [`Simulation::new`](super::Simulation::new).
     pub fn new(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<Self, SettingError> {
         let ids: Vec<u32> = (0..strands.len() as u32).collect();
         Self::with_ids(strands, &ids, dynamics, field)
     }
 
-    /// As [`new`](Self::new), for strands that are some of a larger set: `ids` are their numbers in it.
+    /// Like [`new`](Self::new), for a part of a larger set of strands: `ids` are their indices in that set.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As for [`new`](Self::new).
     ///
     /// # Panics
-    /// If there are not as many ids as strands.
+    /// If the number of ids is not the number of strands.
     pub fn with_ids(
         strands: &Strands,
         ids: &[u32],

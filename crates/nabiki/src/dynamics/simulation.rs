@@ -10,15 +10,16 @@ use crate::error::SettingError;
 use crate::field::Field;
 use crate::strands::Strands;
 
-/// Vectors to step with; the bits are the same with any.
+/// Width of the SIMD vectors. The results are the same, bit by bit, with any width.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum VectorWidth {
-    /// The widest this machine has.
+    /// The widest vectors of this machine.
     #[default]
     Widest,
-    /// At most 256 bits (AVX2 with fused multiply-add, on x86-64).
+    /// At most 256 bits (AVX2 with fused multiply-add on x86-64).
     Medium,
-    /// What every machine of the target has. Slow on x86-64, where fused multiply-adds are then computed in software.
+    /// The vectors that every machine of the target has. Slow on x86-64, where fused multiply-adds are then computed in
+    /// software.
     Baseline,
 }
 
@@ -36,18 +37,20 @@ impl VectorWidth {
     }
 }
 
-/// The fast stepper, twin of [`Reference`](super::Reference): one frame at a time, none of them kept.
+/// The fast stepper, twin of [`Reference`](super::Reference). It computes one frame at a time and keeps none.
 ///
-/// Nothing is allocated in a step. Threads are those of the rayon pool that calls; called from outside of any, rayon's global
-/// pool is started, and the caller waits for it. To hand a call to a pool from outside, as
-/// [`install`](rayon::ThreadPool::install) does, too, is rayon's work, and allocates once in some forty times. An engine that
-/// must not steps on threads of its pool, or on one of its own that it made a pool of one (`num_threads(1).use_current_thread()`,
-/// see [`ThreadPoolBuilder`](rayon::ThreadPoolBuilder::use_current_thread)): then no other thread takes part.
+/// A step allocates nothing. It runs on the rayon pool of the calling thread. If you call it from outside a pool, rayon
+/// starts its global pool and the caller waits. Handing a call to a pool from outside, as
+/// [`install`](rayon::ThreadPool::install) also does, is rayon's work, and allocates about once in 40 calls. An engine
+/// that must never allocate can step on a thread of its pool, or make one of its threads a pool of one
+/// (`num_threads(1).use_current_thread()`, see [`ThreadPoolBuilder`](rayon::ThreadPoolBuilder::use_current_thread)):
+/// then no other thread takes part.
 ///
-/// A clone moves by itself. What no frame changes is shared by all clones, so that many heads of the same groom cost little more
-/// than what moves, and a clone is a saved state: see [`set_state`](Self::set_state).
+/// A clone is independent. Clones share everything that no frame changes, so many heads with the same groom need little
+/// more memory than their moving state. A clone can also serve as a saved state: see [`set_state`](Self::set_state).
 ///
-/// `crates/nabiki/examples/engine.rs` steps hair in an engine's loop, and docs/engine.md has all that such a loop should know.
+/// `crates/nabiki/examples/engine.rs` steps hair in the loop of an engine. docs/engine.md explains what such a loop
+/// must do.
 #[derive(Clone, Debug)]
 pub struct Simulation {
     runner: Runner,
@@ -57,24 +60,24 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Hair at rest in the given shape, at frame 0, that `field` will move.
+    /// Hair at rest in this shape, at frame 0, to be moved by `field`.
     ///
     /// # Errors
-    /// Settings out of range, no strands, strands without a direction in each segment, and a field too strong for
-    /// the step: c_i |F| must stay below 4.
+    /// Settings out of range, no strands, strands with a segment that has no direction, and a field too strong for the
+    /// step: c_i |F| must stay below 4.
     pub fn new(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<Self, SettingError> {
         let ids: Vec<u32> = (0..strands.len() as u32).collect();
         Self::with_ids(strands, &ids, dynamics, field)
     }
 
-    /// As [`new`](Self::new), for strands that are some of a larger set: `ids` are their numbers in it, so that
-    /// they are disturbed as they are there.
+    /// Like [`new`](Self::new), for a part of a larger set of strands. `ids` are their indices in that set; they get
+    /// the same disturbances as there.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As for [`new`](Self::new).
     ///
     /// # Panics
-    /// If there are not as many ids as strands.
+    /// If the number of ids is not the number of strands.
     pub fn with_ids(
         strands: &Strands,
         ids: &[u32],
@@ -87,7 +90,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Bytes of memory that it takes at least to move this hair.
+    /// The least memory for moving this hair (bytes).
     #[must_use]
     pub fn least_bytes(strands: &Strands, dynamics: &Dynamics) -> u64 {
         let row = match dynamics.form {
@@ -98,93 +101,98 @@ impl Simulation {
         (rows * row + size_of_val(strands.points())) as u64
     }
 
-    /// The same simulation with vectors of another width.
+    /// The same simulation with another vector width.
     #[must_use]
     pub fn with_vector_width(mut self, width: VectorWidth) -> Self {
         self.width = width;
         self
     }
 
-    /// How the hair moves.
+    /// The settings of the motion.
     #[must_use]
     pub fn dynamics(&self) -> &Dynamics {
         self.runner.dynamics()
     }
 
-    /// The strongest |F| (in the unit of forces) with which the step is stable: what a field that changes at run time must not
-    /// exceed, since a step does not look. Of the hair's carriers, too.
+    /// The largest |F| with which the step is stable, for the hair and its carriers. A field that changes at run time
+    /// must not exceed it, because a step does not check.
     #[must_use]
     pub fn strongest_force(&self) -> f32 {
         self.runner.strongest_force()
     }
 
-    /// Stands where `of` stands, without an allocation: to save a state into a clone, to restore it, and to go on under other settings
-    /// than those of `of`, with which this was built of the same hair. To the bit if the settings are the same. Points
-    /// written by [`step_frame_into`](Self::step_frame_into) are the caller's, and not part of it.
+    /// Copies the state of `of` without allocating: to save a state into a clone, to restore it, or to continue under
+    /// other settings than those of `of`, if this simulation was built with them from the same hair. With the same
+    /// settings, the state is the same bit by bit. Points written by [`step_frame_into`](Self::step_frame_into) belong
+    /// to the caller and are not copied.
     ///
-    /// What is tied here lies as at rest from the next step on, and carriers that `of` has not begin at rest. That hair is the same
-    /// takes some milliseconds to see, where neither is a clone of the other, or of the same simulation.
+    /// Hair that is tied only here is at rest from the next step on. Carriers that `of` does not have start at rest.
+    /// Unless one is a clone of the other, or both are clones of the same simulation, comparing the hair takes some
+    /// milliseconds.
     ///
     /// # Errors
-    /// Other hair at rest, or hair of the other form of the motion, as [`set_state_bytes`](Self::set_state_bytes) refuses it. Nothing is
-    /// changed then.
+    /// If the hair at rest or the form of the motion differs, as in [`set_state_bytes`](Self::set_state_bytes). Nothing
+    /// is changed then.
     pub fn set_state(&mut self, of: &Self) -> Result<(), SettingError> {
         self.runner.set_state(&of.runner, self.width, self.strands.points_mut(), of.strands.points())?;
         self.frame = of.frame;
         Ok(())
     }
 
-    /// Where it stands, as bytes: for a saved game, another machine, the report of a crash. Of 3,000 strands of 18 segments 2.4 MB
-    /// among neighbours.
+    /// The state as bytes: for a saved game, another machine, or a crash report. For 3,000 strands of 18 segments with
+    /// neighbour forces it is 2.4 MB.
     ///
-    /// They hold the frame, the points that [`strands`](Stepper::strands) shows and what moves, and neither hair nor settings.
+    /// The bytes contain the frame, the points of [`strands`](Stepper::strands) and the moving state, but neither hair
+    /// nor settings.
     #[must_use]
     pub fn state_bytes(&self) -> Vec<u8> {
         self.runner.state_bytes(self.frame, self.strands.points())
     }
 
-    /// The same for whoever steps by [`step_frame_into`](Self::step_frame_into) and has the points of this frame: what is set to these
-    /// bytes shows them.
+    /// Like [`state_bytes`](Self::state_bytes), if you step with [`step_frame_into`](Self::step_frame_into) and hold
+    /// the points of this frame. A simulation that is set to these bytes shows them.
     ///
     /// # Panics
-    /// If there are not just as many points.
+    /// If the number of points is wrong.
     #[must_use]
     pub fn state_bytes_showing(&self, points: &[Vec3]) -> Vec<u8> {
         assert_eq!(points.len(), self.strands.points().len(), "a frame has every point");
         self.runner.state_bytes(self.frame, points)
     }
 
-    /// Stands where the simulation of the same hair stood that gave these [`state_bytes`](Self::state_bytes): to the bit if its
-    /// settings are the same, too. Settings may be others; what is tied then is at rest, and carriers that were not there before are.
+    /// Restores [`state_bytes`](Self::state_bytes) of a simulation of the same hair, bit by bit if its settings are the
+    /// same, too. Settings may differ: hair that is newly tied, and carriers that are new, then start at rest.
     ///
     /// # Errors
-    /// Bytes that are none of these, cut or altered; the state of other hair at rest (be it in one point or in the order of its strands),
-    /// of the other form of the motion, or of another [`METHOD_VERSION`](crate::METHOD_VERSION). Nothing is changed then. Whoever can
-    /// write bytes can also put hair anywhere with them: that they are whole does not say where they come from.
+    /// Bytes that are no state, truncated or altered; the state of other hair at rest (if one point or the order of
+    /// strands differs), of the other form of the motion, or of another [`METHOD_VERSION`](crate::METHOD_VERSION).
+    /// Nothing is changed then. The checksum detects damage, not forgery: somebody who can write the bytes can move the
+    /// hair anywhere.
     pub fn set_state_bytes(&mut self, bytes: &[u8]) -> Result<(), SettingError> {
         self.frame = self.runner.set_state_bytes(bytes, self.width, self.strands.points_mut())?;
         Ok(())
     }
 
-    /// Says that the head came at once where it is in the next step, whose [`FrameInput::before`] is that place, too. Among bodies
-    /// that do not go with the head hair would else not look for contact there, until it moves; nor after a
-    /// [`rewind`](Self::rewind) in such a place. It changes nothing else, and costs that step some distances.
+    /// Call this before a step in which the head jumps, with [`FrameInput::before`] set to the new pose as well. Near
+    /// bodies that do not move with the head, the hair would otherwise not test contact there until it moves. Also call
+    /// it after a [`rewind`](Self::rewind) in such a place. It changes nothing else. The next step takes slightly
+    /// longer.
     pub fn jumped(&mut self) {
         self.runner.jumped();
     }
 
-    /// Puts the hair back to rest, at frame 0; [`strands`](Stepper::strands) shows it. Nothing is allocated.
+    /// Puts the hair back to rest, at frame 0, without allocating. [`strands`](Stepper::strands) then shows it.
     pub fn rewind(&mut self) {
         self.runner.rewind(self.width, self.strands.points_mut());
         self.frame = 0;
     }
 
-    /// Advances by one step, to the frame of `input`, and writes the points into storage of the caller's, as
-    /// [`Strands::points`] orders them: for frames that are handed on without a copy. [`strands`](Stepper::strands) goes on
-    /// showing what it showed.
+    /// Advances by one step, to the frame of `input`, and writes the points to the caller's storage in the order of
+    /// [`Strands::points`], so that you can pass frames on without a copy. [`strands`](Stepper::strands) keeps showing
+    /// the earlier points.
     ///
     /// # Panics
-    /// If there is not room for just these points.
+    /// If the number of points is wrong.
     pub fn step_frame_into(&mut self, input: &FrameInput, points: &mut [Vec3]) {
         assert_eq!(points.len(), self.strands.points().len(), "a frame has room for every point");
         self.runner.step(input, self.width, points);

@@ -30,10 +30,10 @@ impl Form {
     }
 }
 
-/// The largest gain c_i of all strands: a force is stable while it times |F| stays below 4.
+/// The largest gain c_i of all strands. A force is stable if this times |F| is below 4.
 ///
 /// # Errors
-/// As [`Simulation::new`](super::Simulation::new), but for the stability of the field.
+/// As for [`Simulation::new`](super::Simulation::new), except the stability of the field.
 pub fn largest_gain(strands: &Strands, dynamics: &Dynamics) -> Result<f64, SettingError> {
     Ok(Stability::of(strands, dynamics)?.gain)
 }
@@ -41,7 +41,7 @@ pub fn largest_gain(strands: &Strands, dynamics: &Dynamics) -> Result<f64, Setti
 /// Refuses a field that is too strong for the step (7) of this hair: c_i |F| must stay below 4.
 ///
 /// # Errors
-/// As [`Simulation::new`](super::Simulation::new), but for settings out of range.
+/// As for [`Simulation::new`](super::Simulation::new), except settings out of range.
 pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<(), SettingError> {
     if Stability::of(strands, dynamics)?.holds(field) {
         return Ok(());

@@ -1,16 +1,15 @@
-//! Hair that hangs almost straight, made to hang exactly so.
+//! Makes almost vertical hair exactly vertical.
 
 use glam::{DVec3, Vec3};
 
 use super::Motion;
 use crate::strands::Strands;
 
-/// The rest shape that [`Motion::straighten`] asks for: segments within that angle of `polar_axis` (head space, any
-/// length but 0; see [`Dynamics::polar_axis`](super::Dynamics::polar_axis)) are laid on it, up or down as they were, and
-/// keep their length. Roots stay, and what hangs on a segment goes with it.
+/// The rest shape according to [`Motion::straighten`]. Segments within that angle of `polar_axis` (head space, any
+/// length except 0; see [`Dynamics::polar_axis`](super::Dynamics::polar_axis)) are aligned with it, up or down as they
+/// were, and keep their length. Roots stay; the rest of the strand moves along.
 ///
-/// Steppers take hair as it is: this is called once, where the hair at rest is made. A second call changes nothing but
-/// roundings.
+/// Steppers do not call this. Call it once, when you make the hair at rest. A second call changes only rounding errors.
 pub fn straightened(strands: &Strands, motion: &Motion, polar_axis: Vec3) -> Strands {
     let mut straight = strands.clone();
     if motion.straighten == 0.0 {

@@ -1,11 +1,11 @@
-//! All frames of a motion at once, again and again: for an editor, and for whatever tries many fields.
+//! All frames of a motion at once, again and again, for an editor or for trying many fields.
 //!
-//! Each block of strands goes through the whole time before the next one begins, so that its states stay in the nearest
-//! cache, and nothing is built anew between two runs. The frames are, to the bit, those of
+//! Each block of strands goes through all frames before the next block starts, so its state stays in the nearest cache.
+//! Nothing is rebuilt between two runs. The frames are the same, bit by bit, as those of
 //! [`Simulation`](super::Simulation).
 //!
-//! Hair that feels its neighbours has one order more: the few strands that carry the density move first, frame by frame,
-//! and what they leave in a grid is then a field like any other to all the rest, which go block by block.
+//! With neighbour forces, the carriers move first, frame by frame. The grid that they leave is then a field for all
+//! other strands, which go block by block.
 
 use std::sync::Arc;
 
@@ -19,11 +19,11 @@ use crate::field::Field;
 use crate::pose::{self, Pose};
 use crate::strands::Strands;
 
-/// Hair, what moves it, and the frames from rest to the last.
+/// Hair, its field, and its frames from rest to the last.
 ///
-/// It stands at one [`frame`](Self::frame), whose hair it shows. [`advance`](Self::advance) and [`seek`](Self::seek)
-/// move it and keep no other frame; [`play`](Self::play) computes all of them into storage that it keeps. Threads are
-/// those of the rayon pool that calls.
+/// A timeline is at one [`frame`](Self::frame) and shows its hair. [`advance`](Self::advance) and [`seek`](Self::seek)
+/// go to another frame and keep no others. [`play`](Self::play) computes all frames into storage that it keeps. Work
+/// runs on the rayon pool of the calling thread.
 #[derive(Clone, Debug)]
 pub struct Timeline {
     /// The hair at rest as it was given.
@@ -42,11 +42,11 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// Hair at rest in the given shape, at frame 0 of `frames` more. `poses` are those of the head in the world from
-    /// frame 0 on, or none for a head that stands still in the origin.
+    /// Hair at rest in this shape, at frame 0, with `frames` more frames. `poses` are those of the head in the world
+    /// from frame 0 on; empty for a head that stays at the origin.
     ///
     /// # Errors
-    /// As [`Simulation::new`](super::Simulation::new); fewer poses than frames, and poses that are none.
+    /// As for [`Simulation::new`](super::Simulation::new); too few poses, or invalid ones.
     pub fn new(
         strands: &Strands,
         dynamics: &Dynamics,
@@ -58,13 +58,13 @@ impl Timeline {
         Self::with_ids(strands, &ids, dynamics, field, poses, frames)
     }
 
-    /// As [`new`](Self::new), for strands that are some of a larger set: `ids` are their numbers in it.
+    /// Like [`new`](Self::new), for a part of a larger set of strands: `ids` are their indices in that set.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As for [`new`](Self::new).
     ///
     /// # Panics
-    /// If there are not as many ids as strands.
+    /// If the number of ids is not the number of strands.
     pub fn with_ids(
         strands: &Strands,
         ids: &[u32],
@@ -91,7 +91,7 @@ impl Timeline {
         Ok(timeline)
     }
 
-    /// The same timeline with vectors of another width.
+    /// The same timeline with another vector width.
     #[must_use]
     pub fn with_vector_width(mut self, width: VectorWidth) -> Self {
         self.width = width;
@@ -113,17 +113,17 @@ impl Timeline {
         &self.strands
     }
 
-    /// What moves the hair.
+    /// The field.
     pub fn field(&self) -> &Arc<dyn Field> {
         &self.field
     }
 
-    /// How it moves.
+    /// The settings of the motion.
     pub fn dynamics(&self) -> &Dynamics {
         self.runner.dynamics()
     }
 
-    /// Where the head is in a frame.
+    /// The pose of the head in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
         self.poses.get(frame as usize).copied().unwrap_or_default()
     }
@@ -133,7 +133,7 @@ impl Timeline {
         self.go(0, true);
     }
 
-    /// Moves the hair by one frame; `false`, and no motion, at the last one.
+    /// Moves the hair by one frame. At the last frame it returns `false` and does nothing.
     pub fn advance(&mut self) -> bool {
         let more = self.frame < self.frames;
         if more {
@@ -142,8 +142,8 @@ impl Timeline {
         more
     }
 
-    /// Goes to any frame and returns its hair (head space, cm): from where the timeline stands, or from rest where
-    /// that lies behind.
+    /// Goes to a frame and returns its hair (head space, cm). It computes from the current frame, or from rest to go
+    /// backward.
     ///
     /// # Panics
     /// If there is no such frame.
@@ -155,8 +155,7 @@ impl Timeline {
         &self.strands
     }
 
-    /// Computes all frames, and stands at the last one. What it computed before is returned at once as long as nothing
-    /// was set since.
+    /// Computes all frames and goes to the last one. If nothing was set since the last call, it returns at once.
     pub fn play(&mut self) -> Played<'_> {
         if !self.played {
             let points = self.strands.points().len();
@@ -173,22 +172,21 @@ impl Timeline {
         Played { points: &self.film, hair: &self.hair }
     }
 
-    /// Computes all frames into storage of the caller's, and stands at the last one: the points of frame 0, then those of
-    /// frame 1, ..., as [`Strands::points`] orders them. For films that go to another thread.
+    /// Computes all frames into the caller's storage and goes to the last one: the points of frame 0, then those of
+    /// frame 1, and so on, in the order of [`Strands::points`]. Use it for films that go to another thread.
     ///
     /// # Panics
-    /// If there is not room for just these points.
+    /// If the number of points is wrong.
     pub fn play_into(&mut self, film: &mut [Vec3]) {
         self.play_into_while(film, self.frames + 1, || true);
     }
 
-    /// As [`play_into`](Self::play_into), so many frames at a time; between any two of these stretches `goes_on` is asked
-    /// whether to go on. Whether it came to the end: where it did not, the timeline stands at the last frame of the stretch
-    /// that it ended with, and the film holds the frames up to it. For hair of which there is so much that somebody may not
-    /// want to wait.
+    /// Like [`play_into`](Self::play_into), `stretch` frames at a time. Between stretches it calls `goes_on`. If that
+    /// returns `false`, the timeline stays at the last frame of the last stretch, the film holds the frames up to it,
+    /// and the result is `false`. Use it when the computation is long and the user may cancel it.
     ///
     /// # Panics
-    /// If there is not room for just these points, or a stretch has no frame.
+    /// If the number of points is wrong or `stretch` is 0.
     pub fn play_into_while(&mut self, film: &mut [Vec3], stretch: u32, mut goes_on: impl FnMut() -> bool) -> bool {
         let points = self.strands.points().len();
         let frames = self.frames as usize + 1;
@@ -206,10 +204,10 @@ impl Timeline {
         first == frames
     }
 
-    /// Puts another field in the place of this one, and the hair back to rest.
+    /// Sets another field and puts the hair back to rest.
     ///
     /// # Errors
-    /// A field too strong for the step; the timeline is then as it was.
+    /// A field too strong for the step. The timeline is unchanged then.
     pub fn set_field(&mut self, field: Arc<dyn Field>) -> Result<(), SettingError> {
         self.runner.check_field(&self.hair, &*field)?;
         self.field = field;
@@ -242,20 +240,20 @@ impl Timeline {
         Ok(())
     }
 
-    /// Gives the hair other settings, and puts it back to rest.
+    /// Sets other settings of the motion and puts the hair back to rest.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the timeline is then as it was.
+    /// As for [`new`](Self::new). The timeline is unchanged then.
     pub fn set_dynamics(&mut self, dynamics: &Dynamics) -> Result<(), SettingError> {
         self.runner = self.runner.with_dynamics(&self.hair, dynamics, &*self.field)?;
         self.forget();
         Ok(())
     }
 
-    /// Lets the head go another way, for another number of frames, and puts the hair back to rest.
+    /// Sets another motion of the head and number of frames, and puts the hair back to rest.
     ///
     /// # Errors
-    /// As [`new`](Self::new); the timeline is then as it was.
+    /// As for [`new`](Self::new). The timeline is unchanged then.
     pub fn set_poses(&mut self, poses: Vec<Pose>, frames: u32) -> Result<(), SettingError> {
         check_poses(&poses, frames)?;
         (self.poses, self.frames) = (poses, frames);
@@ -286,7 +284,7 @@ impl Timeline {
     }
 }
 
-/// All frames of a motion, as [`Timeline::play`] keeps them.
+/// All frames of a motion, from [`Timeline::play`].
 #[derive(Clone, Copy, Debug)]
 pub struct Played<'a> {
     points: &'a [Vec3],

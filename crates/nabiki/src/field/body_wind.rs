@@ -1,4 +1,4 @@
-//! The wind that a body makes for itself by moving.
+//! The wind that a moving head feels.
 
 use glam::{DVec3, Vec3};
 
@@ -26,18 +26,18 @@ settings! {
     }
 }
 
-/// The wind of a head on its way: a force for each frame.
+/// The wind of a moving head: a force for each frame.
 #[derive(Clone, Debug)]
 pub struct BodyWindField {
     forces: Vec<Vec3>,
 }
 
 impl BodyWindField {
-    /// `poses`: where the head is in the world, one a frame from frame 0 on; after the last it stands still. `frame_rate`:
-    /// frames a second. In [`ForceSpace::Head`] the force is given as the head has it.
+    /// `poses` are those of the head in the world, one per frame from frame 0 on. After the last, the head does not
+    /// move. `frame_rate` is in frames per second. With [`ForceSpace::Head`], the force is in head space.
     ///
     /// # Errors
-    /// Settings out of range, poses that are none, a rate that is not above 0.
+    /// Settings out of range, invalid poses, or a rate that is not above 0.
     pub fn new(settings: &BodyWind, poses: &[Pose], frame_rate: f64, space: ForceSpace) -> Result<Self, SettingError> {
         settings.check()?;
         check_poses("pose of", poses)?;

@@ -1,4 +1,4 @@
-//! How a local force weakens with distance, and how it comes and goes with time.
+//! How a local force weakens with distance and varies over time.
 
 use crate::error::SettingError;
 use crate::setting::{Place, refused};
@@ -35,7 +35,7 @@ impl Falloff {
     /// Part of the radius within which the direction of a force that has none at its centre is let go to 0.
     pub(super) const CORE: f32 = 0.05;
 
-    /// The part of the strength that is left at a distance (cm), 0..1.
+    /// The factor on the strength at a distance (cm), 0..1.
     pub fn at(&self, distance: f32) -> f32 {
         let [part] = self.at_roots(&[distance * distance]);
         part
@@ -87,8 +87,8 @@ settings! {
     }
 }
 
-/// The part of the strength in a frame: on straight lines from key to key, the first before them and the last after them;
-/// all of it without keys.
+/// The factor on the strength in a frame: linear between keys, constant before the first and after the last. Without
+/// keys it is 1.
 pub fn envelope(keys: &[EnvelopeKey], frame: u32) -> f32 {
     let next = keys.partition_point(|key| key.frame < frame);
     match (next.checked_sub(1).map(|i| keys[i]), keys.get(next)) {

@@ -39,7 +39,7 @@ impl Fan {
 /// A fan as a field.
 pub type FanField = LocalField<Cone>;
 
-/// Away from the tip of a cone, and only within it.
+/// The shape of a fan: away from the tip of a cone, and only within the cone.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
     /// Of length 1.
@@ -50,10 +50,10 @@ pub struct Cone {
 }
 
 impl FanField {
-    /// The field of a fan that is called `name` in refusals.
+    /// The field of a fan. `name` is its name in errors.
     ///
     /// # Errors
-    /// As [`Fan::check_at`].
+    /// As for [`Fan::check_at`].
     pub fn new(settings: &Fan, name: &str) -> Result<Self, SettingError> {
         settings.check_at(name)?;
         let Fan { position, direction, strength, spread, falloff, envelope } = settings.clone();

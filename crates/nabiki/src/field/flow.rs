@@ -1,4 +1,4 @@
-//! Wind that goes round the head: the exact potential flow of a uniform wind about an ellipsoid (H. Lamb,
+//! Wind that flows around the head: the exact potential flow of a uniform wind about an ellipsoid (H. Lamb,
 //! "Hydrodynamics", 114).
 
 mod carlson;
@@ -28,12 +28,12 @@ settings! {
     }
 }
 
-/// A wind, uniform far away, on its way round the head.
+/// A wind that is uniform far from the head and flows around it.
 ///
-/// Outside the ellipsoid the force has no divergence and no curl, and on it no part through it: none where the wind meets
-/// the ellipsoid, and the most at its sides, 1.5 times the wind for a sphere. Inside, where nothing blows, hair that has come
-/// there is given the force of the surface before it, weakened by the square of the distance from the centre in half axes:
-/// so the force is continuous everywhere and 0 at the centre.
+/// Outside the ellipsoid the force has no divergence and no curl. On the ellipsoid it has no normal component: it is 0
+/// where the wind meets the ellipsoid and largest at its sides (1.5 times the wind for a sphere). Inside there is no
+/// flow, so hair there gets the force at the surface in front of it, weakened by the square of the distance from the
+/// centre in half axes. The force is therefore continuous everywhere and 0 at the centre.
 #[derive(Clone, Debug)]
 pub struct FlowField {
     wind: Arc<dyn Field>,
@@ -48,11 +48,12 @@ pub struct FlowField {
 }
 
 impl FlowField {
-    /// `wind` about `ellipsoid` (head space), whose `poses` in the space of the field are given one a frame from frame 0 on,
-    /// the last for good (none: it stands still). A wind that is not uniform in a frame counts as it is at the centre.
+    /// `wind` around `ellipsoid` (head space). `poses` are those of the head in the space of the field, one per frame
+    /// from frame 0 on; the last one holds after that, and none means that it does not move. A wind that varies in
+    /// space counts as it is at the centre.
     ///
     /// # Errors
-    /// Settings out of range, poses that are none, half axes too unlike for the flow to be computed (beyond about 1 : 5).
+    /// Settings out of range, invalid poses, or half axes too different to compute the flow (beyond about 1 : 5).
     pub fn new(
         settings: &Flow,
         wind: Arc<dyn Field>,
@@ -86,7 +87,7 @@ impl FlowField {
         self.wind.uniform(frame).unwrap_or_else(|| self.wind.at(self.head.center(frame), frame))
     }
 
-    /// The largest part of the wind that the flow reaches: 2 / (2 - alpha_i(0)) of the shortest way round, 1.5 for a sphere.
+    /// The largest ratio of the flow to the wind: 2 / (2 - alpha_i(0)) for the shortest way around, 1.5 for a sphere.
     pub fn largest_part(&self) -> f32 {
         // A little more, for the rounding of the flow itself.
         self.gains.iter().fold(0.0_f32, |m, &k| m.max(2.0 * k)) * (1.0 + 1e-5)

@@ -39,7 +39,7 @@ struct Wave {
     phase: f64,
 }
 
-/// A field whose strength rises and falls with the gusts.
+/// A field multiplied by gusts.
 #[derive(Clone, Debug)]
 pub struct GustField {
     wind: Arc<dyn Field>,
@@ -52,7 +52,7 @@ impl GustField {
     /// Each band reaches this times as high as the one below it; the lowest begins at 0.
     const RATIO: f64 = 1.25;
 
-    /// `wind`, stronger and weaker. `frame_rate`: frames a second, above 0.
+    /// Multiplies `wind` by gusts. `frame_rate` is in frames per second, above 0.
     ///
     /// # Errors
     /// Settings out of range.
@@ -85,14 +85,14 @@ impl GustField {
         Ok(Self { wind, waves })
     }
 
-    /// What the wind is multiplied by in a frame.
+    /// The factor on the wind in a frame.
     pub fn factor(&self, frame: u32) -> f32 {
         let time = f64::from(frame);
         let sum: f64 = self.waves.iter().map(|wave| wave.amplitude * cos_turns(wave.rate * time + wave.phase)).sum();
         (1.0 + sum) as f32
     }
 
-    /// What the factor's size never exceeds.
+    /// A bound on the absolute value of the factor.
     pub fn largest_factor(&self) -> f32 {
         let sum: f64 = self.waves.iter().map(|wave| wave.amplitude).sum();
         // A little more, for the rounding of products with it.

@@ -1,4 +1,4 @@
-//! The force field of the paper: a few vectors over a few frames, equation (5), or the same eased from one to the next.
+//! The force field of the paper: a few vectors over intervals of frames, equation (5), optionally eased.
 
 use glam::Vec3;
 
@@ -39,7 +39,7 @@ settings! {
     }
 }
 
-/// A force uniform in space, by keyframes.
+/// A keyframed force, uniform in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyframedField {
     keyframes: Vec<Keyframe>,
@@ -47,10 +47,11 @@ pub struct KeyframedField {
 }
 
 impl KeyframedField {
-    /// The paper's field, constant between keyframes. Checks that there is a keyframe, that their frames ascend from 1 and that every vector is finite.
+    /// The paper's field, constant between keyframes.
     ///
     /// # Errors
-    /// Names the keyframe as `force[j]`, counted from 0 as the scene file's overrides count them.
+    /// No keyframes, frames that do not ascend from 1, or a vector that is not finite. The error names the keyframe
+    /// `force[j]`, counted from 0 as in overrides of a scene file.
     pub fn new(keyframes: &[Keyframe]) -> Result<Self, SettingError> {
         if keyframes.is_empty() {
             return Err(SettingError::new("force", "none", "a field needs at least one keyframe"));
@@ -73,13 +74,14 @@ impl KeyframedField {
         Ok(Self { keyframes: keyframes.to_vec(), ease: Ease::Stepped })
     }
 
-    /// The same vectors, from one to the next as `ease` says.
+    /// The same vectors with another ease.
     #[must_use]
     pub fn eased(self, ease: Ease) -> Self {
         Self { ease, ..self }
     }
 
-    /// F(n). Stepped it is equation (5): at a shared frame k_j the earlier vector holds; the last vector holds for good.
+    /// F(n). If stepped, it is equation (5): at a shared frame k_j the earlier vector applies, and the last vector
+    /// applies after all keyframes, too.
     pub fn vector(&self, frame: u32) -> Vec3 {
         match self.ease {
             Ease::Stepped => {
@@ -125,7 +127,7 @@ impl KeyframedField {
         (f64::from(first) + f64::from(self.keyframes[j].through)) / 2.0
     }
 
-    /// The first frame that feels vector `j`: eased, the first after the middle of the interval before it.
+    /// The first frame that vector `j` influences. If eased, it is the first after the middle of the previous interval.
     ///
     /// # Panics
     /// If there is no such vector.
@@ -138,7 +140,7 @@ impl KeyframedField {
         }
     }
 
-    /// How it goes from one vector to the next.
+    /// The ease.
     pub fn ease(&self) -> Ease {
         self.ease
     }

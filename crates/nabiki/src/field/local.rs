@@ -1,4 +1,4 @@
-//! What point, vortex and fan have in common.
+//! The common part of point, vortex and fan.
 
 use std::fmt::Debug;
 
@@ -26,16 +26,17 @@ pub(super) fn unit(at: &Place, direction: Vec3) -> Result<Vec3, SettingError> {
     unit.ok_or_else(|| SettingError::new(Key::from(at), direction, "must be a direction, not (0, 0, 0)"))
 }
 
-/// What tells one kind of local field from another.
+/// The shape of a local field.
 pub trait Shape: Copy + Debug + Send + Sync {
-    /// A vector along F, as long as the distance that the falloff counts, of a point that lies `from_place` of the field's.
+    /// A vector along F at a point `from_place` away from the field's position. Its length is the distance for the
+    /// falloff.
     fn along(&self, from_place: [f32; 3]) -> [f32; 3];
 
-    /// The part of the strength there, 0..1: `along`, and 1 over its length, let go to 0 at the core.
+    /// The factor on the strength there, 0..1. It takes `along` and 1 over its length, which goes to 0 at the core.
     fn part(&self, along: [f32; 3], inverse: f32) -> f32;
 }
 
-/// A force about a place: F = strength falloff(r) part(r^) r^.
+/// A force around a position: F = strength falloff(r) part(r^) r^.
 #[derive(Clone, Debug)]
 pub struct LocalField<S> {
     pub(super) name: String,

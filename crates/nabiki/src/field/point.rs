@@ -1,4 +1,4 @@
-//! A point that blows hair away from itself, or draws it in.
+//! A point that pushes hair away or pulls it in.
 
 use glam::Vec3;
 
@@ -33,15 +33,15 @@ impl Point {
 /// A point as a field.
 pub type PointField = LocalField<Away>;
 
-/// Straight away from the place.
+/// The shape of a point: straight away from it.
 #[derive(Clone, Copy, Debug)]
 pub struct Away;
 
 impl PointField {
-    /// The field of a point that is called `name` in refusals.
+    /// The field of a point. `name` is its name in errors.
     ///
     /// # Errors
-    /// As [`Point::check_at`].
+    /// As for [`Point::check_at`].
     pub fn new(settings: &Point, name: &str) -> Result<Self, SettingError> {
         settings.check_at(name)?;
         let Point { position, strength, falloff, envelope } = settings.clone();

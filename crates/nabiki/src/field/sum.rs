@@ -1,4 +1,4 @@
-//! Fields that add up.
+//! Sums of fields.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::{Field, ROW, VectorRow};
 
-/// The sum of fields, added in their order. Of none: no force.
+/// The sum of fields, added in order. Without fields there is no force.
 #[derive(Clone, Debug, Default)]
 pub struct FieldSum {
     parts: Vec<Arc<dyn Field>>,

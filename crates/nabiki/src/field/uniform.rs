@@ -1,12 +1,12 @@
-//! One force everywhere: wind that a game sets from step to step.
+//! One force everywhere: wind that a game can set before each step.
 
 use glam::Vec3;
 
 use super::Field;
 
-/// The same force at every point and in every frame, until it is set anew.
+/// The same force at every point and in every frame, until you change it.
 ///
-/// A stepper that it is given when it is built bounds it by what it is then; what it is set to later is to stay within
+/// A stepper uses the value at the time it is built as the bound. Later values must stay within
 /// [`Simulation::strongest_force`](crate::dynamics::Simulation::strongest_force).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UniformField(pub Vec3);

@@ -1,4 +1,4 @@
-//! A whirl about an axis.
+//! A vortex around an axis.
 
 use glam::Vec3;
 
@@ -36,17 +36,17 @@ impl Vortex {
 /// A vortex as a field.
 pub type VortexField = LocalField<Round>;
 
-/// Round an axis, of length 1.
+/// The shape of a vortex: around an axis of length 1.
 #[derive(Clone, Copy, Debug)]
 pub struct Round {
     axis: [f32; 3],
 }
 
 impl VortexField {
-    /// The field of a vortex that is called `name` in refusals.
+    /// The field of a vortex. `name` is its name in errors.
     ///
     /// # Errors
-    /// As [`Vortex::check_at`].
+    /// As for [`Vortex::check_at`].
     pub fn new(settings: &Vortex, name: &str) -> Result<Self, SettingError> {
         settings.check_at(name)?;
         let Vortex { position, axis, strength, falloff, envelope } = settings.clone();

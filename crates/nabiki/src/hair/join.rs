@@ -1,12 +1,13 @@
-//! Attributes of strands that lie in several pieces, put after one another.
+//! Joins the attributes of several pieces of hair.
 
 use super::{Attributes, Other};
 
 impl Attributes {
-    /// Appends what `further` strands carry; `false`, with this left half done, where the two do not carry the same.
+    /// Appends the attributes of `further` strands. If the two do not have the same attributes, it returns `false` and
+    /// leaves this one partly changed.
     ///
-    /// Pieces that [`Hair::select`](super::Hair::select) took out of one groom, each strand in one of them and all in their
-    /// order, give the attributes of the whole again, to the bit.
+    /// Appending pieces of a groom from [`Hair::select`](super::Hair::select) in order, with each strand in one piece,
+    /// restores the attributes of the groom bit by bit.
     #[must_use]
     pub fn append(&mut self, further: Self) -> bool {
         fn both<T>(mine: &mut Option<Vec<T>>, further: Option<Vec<T>>) -> bool {

@@ -1,20 +1,19 @@
-//! Attributes that mean nothing to the method and are only passed on.
+//! Attributes that the motion does not use and passes on unchanged.
 
-/// An attribute kept under its source's own name, with its source's own values: they are neither scaled nor turned when
-/// the hair is.
+/// An attribute with the name and values of its source. Transforming the hair neither scales nor turns the values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Other {
     /// Name in its source.
     pub name: String,
-    /// What has a value.
+    /// What each value belongs to.
     pub per: Per,
-    /// What its numbers stand for.
+    /// The meaning of its numbers.
     pub role: Role,
-    /// Numbers or words that make a value.
+    /// Number of numbers or words in a value.
     pub extent: usize,
-    /// How its source stores a number or word, which may be narrower than `values`.
+    /// How its source stores a number or word. This may be narrower than `values`.
     pub stored: Stored,
-    /// Whether it is one value of the groom rather than a list of one.
+    /// Whether it is a single value of the groom, as opposed to a list with one entry.
     pub single: bool,
     /// The values, one after another.
     pub values: Values,
@@ -39,7 +38,7 @@ pub enum Stored {
     U32,
     /// Signed, 64 bits.
     I64,
-    /// Unsigned, 64 bits; those from 2^63 on are held as the negative numbers of the same bits.
+    /// Unsigned, 64 bits. Numbers from 2^63 on are held as the negative numbers with the same bits.
     U64,
     /// Half precision.
     F16,
@@ -54,7 +53,7 @@ pub enum Stored {
 }
 
 impl Stored {
-    /// The way to store all of `values`: whole numbers in 32 bits where these hold them.
+    /// How to store all of `values`: whole numbers in 32 bits if they fit.
     pub fn of(values: &Values) -> Self {
         match values {
             Values::Floats(_) => Self::F32,
@@ -66,10 +65,10 @@ impl Stored {
     }
 }
 
-/// What has a value of its own.
+/// What a value belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Per {
-    /// The groom as a whole.
+    /// The entire groom.
     Groom,
     /// Each strand.
     Strand,
@@ -77,15 +76,15 @@ pub enum Per {
     Point,
 }
 
-/// What the numbers of a value stand for.
+/// The meaning of a value's numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// Themselves.
+    /// Plain numbers.
     #[default]
     Plain,
     /// A colour.
     Colour,
-    /// A place.
+    /// A position.
     Point,
     /// A direction with a length.
     Vector,
@@ -109,7 +108,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// Numbers or words in all.
+    /// Total number of numbers or words.
     pub fn len(&self) -> usize {
         match self {
             Self::Floats(v) => v.len(),
@@ -124,10 +123,10 @@ impl Values {
         self.len() == 0
     }
 
-    /// The values of `extent` parts each that `indices` name.
+    /// The values (of `extent` parts each) with these `indices`.
     ///
     /// # Panics
-    /// If an index lies past the values.
+    /// If an index is out of range.
     pub fn pick(&self, extent: usize, indices: &[usize]) -> Self {
         fn of<T: Clone>(values: &[T], extent: usize, indices: &[usize]) -> Vec<T> {
             indices.iter().flat_map(|&i| values[extent * i..extent * (i + 1)].iter().cloned()).collect()
@@ -140,11 +139,11 @@ impl Values {
         }
     }
 
-    /// Values blended from these, each of `extent` parts: `blends` names, for each, values and weights that add up to 1.
-    /// Whole numbers and words are those of the greatest weight.
+    /// Values blended from these, each of `extent` parts. For each result, `blends` gives indices and weights that add
+    /// up to 1. Whole numbers and words are taken from the largest weight.
     ///
     /// # Panics
-    /// If an index lies past the values.
+    /// If an index is out of range.
     pub fn blended<const N: usize>(&self, extent: usize, blends: impl Iterator<Item = [(usize, f64); N]>) -> Self {
         let sum = |at: &dyn Fn(usize) -> f64, blend: &[(usize, f64); N], part: usize| {
             let heavy = blend.iter().filter(|(_, w)| *w != 0.0);
@@ -166,12 +165,12 @@ impl Values {
 }
 
 impl Other {
-    /// An attribute that is stored as its values are, whole numbers in 32 bits where these hold them.
+    /// An attribute stored as its values are: whole numbers in 32 bits if they fit.
     pub fn new(name: impl Into<String>, per: Per, role: Role, extent: usize, values: Values) -> Self {
         Self { name: name.into(), per, role, extent, stored: Stored::of(&values), single: false, values }
     }
 
-    /// How many numbers or words it must have for a number of strands and of points.
+    /// The number of numbers or words that it must have for this many strands and points.
     pub fn expected(&self, strands: usize, points: usize) -> usize {
         match self.per {
             // A groom may have a list of values.
@@ -181,7 +180,7 @@ impl Other {
         }
     }
 
-    /// Appends the values that further strands have; `false` where the two cannot be one.
+    /// Appends the values of further strands. Returns `false` if the two attributes do not match.
     pub fn append(&mut self, further: Self) -> bool {
         if self.per == Per::Groom {
             return *self == further;

@@ -1,4 +1,4 @@
-//! The same strands with another number of points, evenly spaced along each.
+//! Resamples strands to another number of evenly spaced points.
 
 use glam::Vec3;
 
@@ -13,8 +13,8 @@ struct Place {
 }
 
 impl Hair {
-    /// Every strand with `points` points (at least 2), equally spaced along its polyline; root and tip stay exactly
-    /// where they are. Values by point are interpolated along with the points. A strand of a single point repeats it.
+    /// Resamples each strand to `points` points (at least 2), equally spaced along its polyline. Root and tip do not
+    /// move. Values by point are interpolated, too. A strand with a single point repeats it.
     pub fn resampled(&self, points: usize) -> Self {
         let points = points.max(2);
         let mut places = Vec::with_capacity(self.strands.len() * points);

@@ -1,11 +1,11 @@
-//! Strands that their source has tip first.
+//! Strands that their source stores tip first.
 
 use super::Hair;
 use crate::Strands;
 
 impl Hair {
-    /// The hair of a source that has the strands tip first for which `tip_first` holds: they are turned round, with all that they
-    /// carry by point, and that is noted.
+    /// Reverses the strands for which `tip_first` is true, with their values by point, and records this in the
+    /// attributes.
     #[must_use]
     pub fn from_tip_first(self, tip_first: Vec<bool>) -> Self {
         let mut hair = self.turned(&tip_first);
@@ -13,7 +13,7 @@ impl Hair {
         hair
     }
 
-    /// The hair as its source has it: strands that it has tip first are so again.
+    /// The hair in the order of its source: strands that are stored tip first there are reversed again.
     #[must_use]
     pub fn as_in_source(mut self) -> Self {
         match self.attributes.tip_first.take() {

@@ -1,4 +1,4 @@
-//! Openings of a head's mesh, and whether they lie where hair grows.
+//! Openings of a head's mesh, and whether they are where hair grows.
 
 use glam::{DVec3, Vec3};
 
@@ -12,17 +12,17 @@ const ON_SCALP: f64 = 0.25;
 /// Vertices between these many times the ellipsoid's radius from its centre are of the scalp: E runs through it.
 const NEAR: std::ops::RangeInclusive<f32> = 0.85..=1.2;
 
-/// A hole in a head's mesh, or where the mesh was cut off. It counts as closed by a fan about the middle of its rim.
+/// A hole in a head's mesh, or the rim where it was cut off. A fan around the middle of its rim closes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
     /// Edges of its rim.
     pub edges: usize,
-    /// Mean of its rim's vertices (head space, cm).
+    /// Mean of the rim's vertices (head space, cm).
     pub middle: Vec3,
-    /// Greatest distance of its rim from `middle` (cm).
+    /// Largest distance of the rim from `middle` (cm).
     pub radius: f32,
-    /// How far the ellipsoid E bulges out over `middle` (cm) where the rim runs through the scalp: so much of the skull
-    /// is missing. `None` where it does not, as at the neck, the eyes and the mouth.
+    /// How far the ellipsoid E extends beyond `middle` (cm) if the rim runs through the scalp: how much of the skull is
+    /// missing. `None` for other openings, such as neck, eyes and mouth.
     pub missing: Option<f32>,
 }
 

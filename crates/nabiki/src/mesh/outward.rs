@@ -10,26 +10,26 @@ use crate::distance::rims;
 /// A piece that encloses less than this share of what a ball of its surface does is flat: it has no outside.
 const FLAT: f64 = 1e-3;
 
-/// How the triangles of a mesh lay, and what had to be done about it.
+/// The orientation of a mesh's triangles, and how it was corrected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Orientation {
-    /// Triangles of second sides, which are left out.
+    /// Triangles of second sides that were removed.
     pub doubled: usize,
     /// Triangles that faced inward and were turned.
     pub turned: usize,
-    /// Edges that belong to one triangle only: rims of openings.
+    /// Edges of only one triangle: the rims of openings.
     pub open_edges: usize,
-    /// Whether any piece encloses space, its openings closed; else the mesh is a sheet and has no inside.
+    /// Whether any piece encloses space once its openings are closed. If not, the mesh is a sheet and has no inside.
     pub has_inside: bool,
 }
 
 impl Mesh {
-    /// Turns triangles until all face outward, and says how many were turned. Parts that were exported
-    /// with two sides keep one.
+    /// Turns triangles so that all face outward, and reports how many were turned. Parts exported with two sides keep
+    /// one.
     ///
-    /// A piece is what hangs together by edges of two triangles each. Within it all triangles are made to agree; then
-    /// it is turned as a whole if the space that it encloses, openings closed by fans, comes out negative. Each piece is
-    /// judged by itself, so that a wall within another counts as solid, too. Flat pieces stay as they are.
+    /// A piece is a set of triangles connected by edges of two triangles each. Its triangles are made to agree; then
+    /// the piece is turned if the volume it encloses, with openings closed by fans, is negative. Each piece is judged
+    /// separately, so a wall inside another piece counts as solid, too. Flat pieces are left unchanged.
     pub fn turn_outward(&mut self) -> Orientation {
         let joined = self.first_at_place();
         let doubled = self.keep_one_side(&joined);

@@ -1,4 +1,4 @@
-//! A ball that is drawn along a segment: an arm, a finger, a stick.
+//! A capsule: an arm, a finger, a stick.
 
 use glam::{Mat3, Vec3};
 
@@ -8,7 +8,7 @@ use crate::error::{SettingError, check_positive};
 /// How far about it distances are read (cm): contact keeps hair up to 5 cm away.
 const AROUND_CM: f32 = 6.0;
 
-/// All points within `radius` of a segment, exact everywhere, without samples.
+/// All points within `radius` of a segment. Distances are exact everywhere and need no samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule {
     ends: [Vec3; 2],
@@ -16,10 +16,11 @@ pub struct Capsule {
 }
 
 impl Capsule {
-    /// About the segment between `ends` (its own space, cm), which may be one point. `thing`: what it is called.
+    /// A capsule around the segment between `ends` (its own space, cm), which may coincide. `thing` is its name in
+    /// errors.
     ///
     /// # Errors
-    /// Ends that are no points, a radius that is not above 0.
+    /// Ends that are not finite, or a radius that is not above 0.
     pub fn new(ends: [Vec3; 2], radius: f32, thing: &str) -> Result<Self, SettingError> {
         if let Some(end) = ends.iter().find(|end| !end.is_finite()) {
             return Err(SettingError::new(thing, end, "must have finite coordinates"));
