@@ -1,8 +1,8 @@
-//! Settings, declared once: [`settings!`](crate::settings) and [`words!`](crate::words) make of one declaration the struct, its
-//! defaults, its check, how it is read and written, and what may be known of it as data, a [`Table`].
+//! Settings, declared once. From one declaration, [`settings!`](crate::settings) and [`words!`](crate::words) generate
+//! the struct, its defaults, its check, its serialisation, and a description as data, a [`Table`].
 //!
-//! A declaration stands in the crate that obeys it. All who show, write or explain settings read the tables; the schema of a whole scene
-//! is `nabiki_scene::schema`.
+//! Each setting is declared in the crate that uses it. Code that shows, writes or explains settings reads the tables.
+//! The schema of a whole scene is `nabiki_scene::schema`.
 
 mod declare;
 mod value;
@@ -14,19 +14,19 @@ pub use value::Value;
 
 use crate::error::SettingError;
 
-/// The settings of one struct.
+/// The description of a struct of settings.
 #[derive(Debug)]
 pub struct Table {
     /// The struct's name.
     pub name: &'static str,
-    /// Its doc comment, as it is.
+    /// Its doc comment, unchanged.
     pub help: &'static str,
     /// Its settings, in order.
     pub settings: &'static [Setting],
 }
 
 impl Table {
-    /// The setting of this key, which it must have: a constant that asks for another does not compile.
+    /// The setting with this key. In a constant, a missing key is a compile error.
     #[doc(hidden)]
     pub const fn setting(&self, key: &str) -> &'static Setting {
         let mut rest = self.settings;
@@ -51,37 +51,37 @@ const fn is_same(mut a: &[u8], mut b: &[u8]) -> bool {
     a.is_empty() && b.is_empty()
 }
 
-/// One setting, as it is declared.
+/// The description of one setting.
 #[derive(Debug)]
 pub struct Setting {
     /// Its key within the table.
     pub key: &'static str,
-    /// What a panel calls it.
+    /// Its label in a panel.
     pub label: &'static str,
-    /// Its doc comment, as it is. The first sentence says what it does.
+    /// Its doc comment, unchanged. The first sentence says what the setting does.
     pub help: &'static str,
-    /// What it may be.
+    /// Its type.
     pub kind: Kind,
     /// Its unit and range.
     pub range: Range,
-    /// The value of a new one. Where it [must](Self::must) be given, nothing stands in for it when a file is read.
+    /// The default. A setting that [must](Self::must) be given has no default when a file is read.
     pub default: fn() -> Datum,
-    /// An example of what must be given, where a file cannot do without it.
+    /// An example value, if the setting is required.
     pub must: Option<&'static str>,
-    /// What is taken where it is left open, which it may be.
+    /// What applies if the setting is left out, if it may be.
     pub open: Option<&'static str>,
 }
 
-/// What a setting may be.
+/// The type of a setting.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// True or false.
     Flag,
-    /// A whole number of a type that holds these.
+    /// A whole number.
     Whole {
-        /// The least.
+        /// Smallest value of its type.
         least: i64,
-        /// The most.
+        /// Largest value of its type.
         most: i64,
     },
     /// A number.
@@ -90,46 +90,46 @@ pub enum Kind {
     Text,
     /// A path, relative to the scene's file.
     Path,
-    /// One of a few words.
+    /// One of these words.
     Words(&'static [Word]),
-    /// A number with one of these units as text, `"4.5 cm"`.
+    /// A number with one of these units, as text: `"4.5 cm"`.
     Quantity(&'static [&'static str]),
-    /// So many numbers.
+    /// This many numbers.
     Numbers(usize),
-    /// So many whole numbers of at least 0.
+    /// This many whole numbers of at least 0.
     Wholes(usize),
-    /// Any number of them.
+    /// A list of any length.
     List(&'static Kind),
     /// A table of settings.
     Table(&'static Table),
-    /// One of several.
+    /// One of several types.
     OneOf(&'static [Kind]),
 }
 
-/// A word that a setting may be.
+/// A word of a setting.
 #[derive(Clone, Copy, Debug)]
 pub struct Word {
     /// The word.
     pub word: &'static str,
-    /// What it means: its doc comment, as it is.
+    /// Its meaning: its doc comment, unchanged.
     pub help: &'static str,
 }
 
-/// A setting's unit, and what its numbers lie within; each of a list's.
+/// The unit and range of a setting's numbers, or of each number of a list.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Range {
-    /// The unit, or nothing.
+    /// The unit, or empty.
     pub unit: &'static str,
-    /// More than this.
+    /// Exclusive lower bound.
     pub above: Option<f64>,
-    /// At least this.
+    /// Inclusive lower bound.
     pub least: Option<f64>,
-    /// At most this.
+    /// Inclusive upper bound.
     pub most: Option<f64>,
 }
 
 impl Range {
-    /// What a number must be that is not in the range, in words.
+    /// The range in words, for the error about a number outside it.
     pub fn remedy(&self) -> String {
         match (self.above, self.least, self.most) {
             (_, Some(least), Some(most)) => format!("must lie in {least}..{most}"),
@@ -154,13 +154,13 @@ impl Range {
 /// A value as data.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Datum {
-    /// Not there.
+    /// Not set.
     Open,
     /// True or false.
     Flag(bool),
     /// A whole number.
     Whole(i64),
-    /// A number; one of 32 bits with no more digits than tell it from its neighbours.
+    /// A number. An f32 has only the digits that distinguish it from its neighbours.
     Number(f64),
     /// A word, text or path.
     Text(String),
@@ -189,11 +189,11 @@ impl serde::Serialize for Datum {
 
 /// A struct of settings.
 pub trait Settings: Value {
-    /// What is declared of it.
+    /// Its description.
     const TABLE: Table;
 }
 
-/// A doc comment as text: lines that were broken are joined, paragraphs stay apart, links of Rust's documentation are the words alone.
+/// A doc comment as plain text: lines are joined into paragraphs, and links are replaced by their text.
 pub fn plain(help: &str) -> String {
     let mut text = String::new();
     for line in help.lines().map(str::trim) {
@@ -237,7 +237,7 @@ impl fmt::Display for Range {
     }
 }
 
-/// Refuses a value, by the name of its setting.
+/// The error for a value of the setting at `at`.
 ///
 /// # Errors
 /// Always.

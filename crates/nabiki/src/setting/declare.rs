@@ -1,14 +1,19 @@
-//! The two macros that settings are declared with.
+//! The macros that declare settings.
 
 /// Declares a struct of settings.
 ///
-/// Each setting has its doc comment, whose first sentence is the help that a panel shows, its key, type and default, and after the arrow
-/// its label, then what there is to say of these, in this order: `must "EXAMPLE"`, where a file cannot do without it (the default is
-/// then what a new table starts with); `unit "cm"`; `above`, `least` and `most`, which bound each of its numbers; `open "WHAT"`, what is
-/// taken where it is left open. `pub KEY: TYPE => of STRUCT;` is a setting that another struct declares under the same key: default,
-/// label, unit and range are that one's, the help is its own; `pub KEY: TYPE = DEFAULT => of STRUCT;` is one of another type. `in "TABLE"` names the table that the struct always is, and gives
-/// `check()`. `where RULE` names a function of the struct that refuses what no range can say:
-/// `fn RULE(&self, at: &Place) -> Result<(), SettingError>`.
+/// Each setting has a doc comment, whose first sentence is the help in a panel. Then come key, type and default, and
+/// after the arrow the label and these options, in this order:
+///
+/// - `must "EXAMPLE"` for a required setting; its default is then what a new table starts with
+/// - `unit "cm"`
+/// - `above`, `least` and `most`, which bound each of its numbers
+/// - `open "WHAT"`, what applies if it is left out
+///
+/// `pub KEY: TYPE => of STRUCT;` repeats the setting that STRUCT declares under this key: default, label, unit and
+/// range are taken from there, the help is its own. `pub KEY: TYPE = DEFAULT => of STRUCT;` does this with another
+/// type. `in "TABLE"` names the table of the struct, if it always has the same name, and adds `check()`. `where RULE`
+/// names a method that refuses what no range can express: `fn RULE(&self, at: &Place) -> Result<(), SettingError>`.
 ///
 /// ```
 /// use nabiki::setting::{Settings, plain};
@@ -168,7 +173,8 @@ macro_rules! settings {
     };
 }
 
-/// Declares an enum of words that a setting may be: each variant with its doc comment and its word. `= VARIANT` names the default.
+/// Declares an enum whose variants are the words of a setting, each with a doc comment and its word. `= VARIANT` names
+/// the default.
 ///
 /// ```
 /// nabiki::words! {

@@ -1,4 +1,4 @@
-//! What a setting may hold: how each type is checked, and what it is as data.
+//! The types of settings: their checks, and their values as data.
 
 use std::path::PathBuf;
 
@@ -7,15 +7,15 @@ use glam::{Vec2, Vec3};
 use super::{Datum, Kind, Place, Range, refused};
 use crate::error::SettingError;
 
-/// A type that settings have.
+/// A type of a setting.
 pub trait Value {
-    /// What it may be.
+    /// Its description.
     const KIND: Kind;
 
-    /// Refuses a value out of `range`; `at` names it.
+    /// Refuses a value outside `range`. `at` is its name.
     ///
     /// # Errors
-    /// Says the range.
+    /// The value is outside the range, which the error contains.
     fn check(&self, at: &Place, range: &Range) -> Result<(), SettingError>;
 
     /// The value as data.

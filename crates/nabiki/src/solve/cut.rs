@@ -1,5 +1,5 @@
-//! An interval of its own for a pull: cut out of the wind before the frame in which hair is pulled, so that the wind acts where it is
-//! felt and is what it was in all other frames.
+//! Cuts an interval for a pull out of the wind, before the frame in which hair is pulled. The wind acts where it is
+//! felt and stays the same in all other frames.
 
 use std::ops::RangeInclusive;
 
@@ -14,18 +14,18 @@ const TAIL: u32 = 2;
 /// A wind with an interval for a pull.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cut {
-    /// All intervals. Stepped, the wind is what it was until a vector is changed; eased, the intervals beside the new one have the
-    /// vector that the wind had in their middle.
+    /// All intervals. A stepped wind is unchanged until you change a vector. In an eased wind, the intervals next to
+    /// the new one get the vector that the wind had in their middle.
     pub keyframes: Vec<Keyframe>,
-    /// Which of them is the pull's.
+    /// The index of the pull's interval.
     pub interval: usize,
-    /// The frames in which the wind may be another than before, whatever vector the pull's interval is given. In all others it is what it
-    /// was, to the bit.
+    /// The frames in which the wind may change, whatever the vector of the pull's interval. In all other frames it
+    /// stays the same, bit by bit.
     pub felt: RangeInclusive<u32>,
 }
 
-/// Gives a pull at a frame an interval of about so many frames that ends there. An interval that a pull before has been given is taken
-/// again, and borders that lie nearby are kept, so that pull after pull leaves no heap of small ones.
+/// Makes an interval of about `length` frames that ends at `frame`, for a pull in that frame. It uses the interval of
+/// an earlier pull again and keeps nearby borders, so that repeated pulls do not create many small intervals.
 ///
 /// # Panics
 /// If the frame is 0.
@@ -78,8 +78,8 @@ fn as_it_was(before: &[Keyframe], ease: Ease, mut cut: Vec<Keyframe>) -> Vec<Key
     cut
 }
 
-/// The frames whose wind may be another than before, whatever vectors these intervals of the new one are given. One that it reaches for
-/// good ends at `u32::MAX`.
+/// The frames in which the wind may differ, whatever the vectors of these intervals of the new one. If an interval
+/// lasts indefinitely, the range ends at `u32::MAX`.
 ///
 /// # Panics
 /// If there is no such interval.
@@ -97,7 +97,7 @@ pub fn felt(before: &[Keyframe], after: &[Keyframe], ease: Ease, intervals: &[us
     begin..=if end == last { u32::MAX } else { end }
 }
 
-/// By how much the wind of any of these frames is another than before, at the most.
+/// The largest change of the wind in any of these frames.
 pub fn change(before: &[Keyframe], after: &[Keyframe], ease: Ease, frames: RangeInclusive<u32>) -> f32 {
     let field = |keyframes: &[Keyframe]| KeyframedField::new(keyframes).ok().map(|field| field.eased(ease));
     let (before, after) = (field(before), field(after));

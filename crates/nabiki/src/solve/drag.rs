@@ -1,4 +1,4 @@
-//! A wish that moves, as under a hand.
+//! Follows a moving wish, such as a mouse that pulls hair.
 
 use glam::Vec3;
 
@@ -9,46 +9,46 @@ use super::unknowns::Answer;
 use super::wish::Goal;
 use crate::error::SettingError;
 
-/// Follows a wish that moves: one or a few steps a call, from where the last call ended.
+/// Follows a moving wish: a few steps with each call, starting where the last call ended.
 #[derive(Debug)]
 pub struct Drag {
     solver: Solver,
 }
 
 impl Drag {
-    /// Takes hold: the problem's wishes are the lock that is held and the nails.
+    /// Starts a drag. The wishes of the problem are the lock that is held and the nails.
     ///
     /// # Errors
-    /// As [`Solver::new`].
+    /// As for [`Solver::new`].
     pub fn new(problem: Problem) -> Result<Self, SettingError> {
         Ok(Self { solver: Solver::new(problem)? })
     }
 
-    /// Pulls: a wish has a new goal, and the wind follows it by a step or two.
+    /// Sets a new goal for a wish and takes a few steps toward it.
     ///
     /// # Errors
-    /// As [`Solver::set_goal`].
+    /// As for [`Solver::set_goal`].
     pub fn pull(&mut self, wish: usize, goal: Goal) -> Result<Step, SettingError> {
         self.solver.set_goal(wish, goal)?;
         Ok(self.solver.step())
     }
 
-    /// Where the nodes of a wish are now (head space, cm): the hair's end of the thread from the hand.
+    /// The current positions of a wish's nodes (head space, cm).
     pub fn places(&self, wish: usize) -> Vec<Vec3> {
         self.solver.places(wish)
     }
 
-    /// The settings as they are now.
+    /// The current settings.
     pub fn answer(&self) -> Answer {
         self.solver.answer()
     }
 
-    /// The search behind it.
+    /// The underlying solver.
     pub fn solver(&self) -> &Solver {
         &self.solver
     }
 
-    /// The search behind it, to go on from here.
+    /// The underlying solver, to continue from here.
     pub fn into_solver(self) -> Solver {
         self.solver
     }

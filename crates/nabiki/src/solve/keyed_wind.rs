@@ -1,4 +1,4 @@
-//! The wind that is solved for, and what stands around it.
+//! The wind to solve for, and the fields around it.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -8,22 +8,22 @@ use glam::Vec3;
 use crate::error::SettingError;
 use crate::field::{Ease, Field, FieldSum, Gust, GustField, Keyframe, KeyframedField};
 
-/// The wind whose vectors, borders and gusts may be unknown: keyframes, eased or not, and the gusts on them.
+/// The wind whose vectors, borders and gusts may be unknown: keyframes, their ease and gusts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KeyedWind {
-    /// The intervals. None: no wind yet; see [`with_interval`].
+    /// The intervals. If empty, there is no wind yet; see [`with_interval`].
     pub keyframes: Vec<Keyframe>,
-    /// From one vector to the next.
+    /// How one vector changes to the next.
     pub ease: Ease,
-    /// A random factor on all of them.
+    /// Gusts on all intervals.
     pub gust: Option<Gust>,
 }
 
 impl KeyedWind {
-    /// The field of it, as a scene has it. `frame_rate`: frames a second.
+    /// The field of this wind, as in a scene. `frame_rate` is in frames per second.
     ///
     /// # Errors
-    /// Keyframes out of order and numbers that are none, but for no keyframes: those are no wind.
+    /// Keyframes out of order, and numbers that are not finite. No keyframes are allowed: there is no wind then.
     pub fn field(&self, frame_rate: f64) -> Result<Arc<dyn Field>, SettingError> {
         if self.keyframes.is_empty() {
             return Ok(Arc::new(FieldSum::default()));
@@ -36,23 +36,23 @@ impl KeyedWind {
     }
 }
 
-/// What makes of a wind, uniform in space, all that pushes the hair.
+/// Builds the complete field from a wind that is uniform in space.
 pub trait Surroundings: Debug + Send + Sync {
-    /// All that pushes where this is the wind.
+    /// The complete field with this wind.
     ///
     /// # Errors
-    /// A wind that cannot be made a field of.
+    /// A wind that cannot be used.
     fn field(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError>;
 
-    /// The part of it that is linear in the wind, for this wind: the wind itself, or its way round the head. What else
-    /// depends on the wind, as the drift of swirls, is held while tangents are taken.
+    /// The part of the field that is linear in the wind: the wind itself, or its flow around the head. Everything else
+    /// that depends on the wind, such as the drift of turbulence, is held constant while derivatives are taken.
     ///
     /// # Errors
-    /// As [`field`](Self::field).
+    /// As for [`field`](Self::field).
     fn of_wind(&self, wind: Arc<dyn Field>) -> Result<Arc<dyn Field>, SettingError>;
 }
 
-/// Nothing but the wind.
+/// Only the wind.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OpenAir;
 
@@ -66,9 +66,9 @@ impl Surroundings for OpenAir {
     }
 }
 
-/// The same keyframes with an interval of its own from frame `from` to `through`, both included, and its number. It
-/// begins with the vector that was there at its first frame, or none: stepped, hair moves as before until a vector is
-/// changed. Intervals that it covers wholly are gone.
+/// Adds an interval from frame `from` to `through`, both included, and returns the keyframes and its index. It starts
+/// with the vector at its first frame, or 0 if there is none, so with a stepped ease hair moves as before until you
+/// change a vector. Intervals that it covers completely are removed.
 ///
 /// # Panics
 /// If `from` is 0 or after `through`.

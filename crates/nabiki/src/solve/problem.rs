@@ -1,4 +1,4 @@
-//! What is to be solved.
+//! The problem to solve.
 
 use std::sync::Arc;
 
@@ -10,36 +10,37 @@ use crate::error::SettingError;
 use crate::pose::Pose;
 use crate::strands::Strands;
 
-/// Hair, what moves it, what may change, and what is wished for.
+/// The hair, what moves it, what may change, and the wishes.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// The hair at rest (head space, cm): all of a scene's, or some. Only what wishes name is ever stepped; no answer is too
-    /// strong for any of it.
+    /// The hair at rest (head space, cm): all strands of a scene, or some. Only the strands in wishes are stepped, but
+    /// the answer is stable for all of them.
     pub hair: Strands,
-    /// The strands' numbers in the set they are some of.
+    /// The strands' indices in the complete set.
     pub ids: Vec<u32>,
-    /// How it moves.
+    /// The settings of the motion.
     pub dynamics: Dynamics,
-    /// Of the head in the world from frame 0 on; none for a head that stands still.
+    /// World poses of the head from frame 0 on. Empty for a head that does not move.
     pub poses: Vec<Pose>,
-    /// The wind as it is now.
+    /// The current wind.
     pub wind: KeyedWind,
-    /// What makes a field of it.
+    /// Builds the complete field from the wind.
     pub surroundings: Arc<dyn Surroundings>,
     /// What may change.
     pub unknowns: Vec<Unknown>,
-    /// What is wished for.
+    /// The wishes.
     pub wishes: Vec<Wish>,
-    /// What is preferred where wishes leave a choice.
+    /// Preferences among solutions that meet the wishes equally well.
     pub prior: Prior,
 }
 
-/// What is preferred where wishes leave a choice: small terms beside them.
+/// Preferences among solutions that meet the wishes equally well. They are small terms added to the wishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prior {
-    /// A change of a vector by 100, of a border by 20 frames, of the gusts by 1, of stiffness or settling by a factor e, counts as this distance of all wishes (cm).
+    /// Cost of changes, as a distance of all wishes (cm). It applies to a change of a vector by 100, of a border by 20
+    /// frames, of the gusts by 1, or of stiffness or settling by a factor of e.
     pub keep: f32,
-    /// So does a difference by 100 between the vectors of neighbouring intervals of which one is free (cm).
+    /// Cost of a difference of 100 between the vectors of adjacent intervals, of which one may change (cm).
     pub alike: f32,
 }
 

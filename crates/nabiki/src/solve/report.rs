@@ -1,41 +1,42 @@
-//! What came of it.
+//! The results of a search.
 
 use super::unknowns::Answer;
 
-/// One step of the solver. Distances are the root mean square over wishes, by weight, of what is left of each (cm).
+/// The result of one step. Distances are the weighted root mean square of the remaining distances of all wishes (cm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// Before it.
+    /// Before the step.
     pub before_cm: f64,
-    /// After it; the same where none was found that leads nearer.
+    /// After the step. The same as before if no better step was found.
     pub after_cm: f64,
 }
 
-/// What is left of one wish: the root mean square distance of its nodes, or of their mean, from where they should be (cm).
+/// The remaining distance of one wish: the root mean square distance of its nodes, or the distance of their mean, from
+/// the goal (cm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WishLeft {
-    /// Before anything was solved.
+    /// Before the search.
     pub before_cm: f64,
-    /// In the motion of the answer.
+    /// After the search.
     pub after_cm: f64,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
-    /// The settings, rounded as a scene file holds them. All distances here are of the motion that they make.
+    /// The settings, rounded as in a scene file. All distances here are for the motion with these rounded settings.
     pub answer: Answer,
-    /// Root mean square over wishes by weight, before (cm).
+    /// Weighted root mean square over the wishes before the search (cm).
     pub before_cm: f64,
-    /// The same after (cm).
+    /// The same after the search (cm).
     pub after_cm: f64,
-    /// Of each wish, in order.
+    /// The remaining distances of each wish, in order.
     pub wishes: Vec<WishLeft>,
-    /// Steps from the start that led to the answer, and from all others.
+    /// Number of steps, from all starts.
     pub iterations: usize,
-    /// Starts tried.
+    /// Number of starts.
     pub starts: usize,
-    /// Motions computed, with tangents or without.
+    /// Number of motions computed, with or without derivatives.
     pub runs: usize,
 }

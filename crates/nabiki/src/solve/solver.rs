@@ -1,4 +1,5 @@
-//! The search: Levenberg's and Marquardt's method, with tangents of the specification, judged by the fast stepper.
+//! The search: the Levenberg-Marquardt method with derivatives from the specification. The fast stepper judges the
+//! steps.
 
 mod preroll;
 mod search;
@@ -26,7 +27,7 @@ pub use preroll::Preroll;
 pub use search::Search;
 pub use stop::Stop;
 
-/// A problem, and the settings that it has come to.
+/// A problem with the best settings found so far.
 #[derive(Debug)]
 pub struct Solver {
     problem: Problem,
@@ -117,20 +118,20 @@ const FARTHEST: f64 = 32.0;
 const LEAST: f64 = 1e-6;
 
 impl Solver {
-    /// The problem as it is, nothing changed yet.
+    /// A solver at the settings of the problem.
     ///
     /// # Errors
-    /// Wishes and unknowns that name what is not there, weights that are none, no wishes, no unknowns; and as
-    /// [`Timeline::new`](crate::dynamics::Timeline::new).
+    /// Wishes or unknowns that refer to something that does not exist, invalid weights, no wishes, no unknowns; and as
+    /// for [`Timeline::new`](crate::dynamics::Timeline::new).
     pub fn new(problem: Problem) -> Result<Self, SettingError> {
         Self::after(problem, None)
     }
 
-    /// As [`new`](Self::new), going on from where the same hair is known to be. `preroll`: of the same hair, dynamics and wishes, under a wind
-    /// that up to its frame is that of the problem.
+    /// Like [`new`](Self::new), starting from a known state of the hair. `preroll` must have the same hair, dynamics
+    /// and wishes, and the same wind up to its frame.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As for [`new`](Self::new).
     pub fn after(problem: Problem, preroll: Option<&Preroll>) -> Result<Self, SettingError> {
         let Problem { hair, dynamics, wind, surroundings, .. } = &problem;
         let layout = Layout::new(&problem.unknowns, wind, dynamics)?;
@@ -192,9 +193,10 @@ impl Solver {
         Ok(solver)
     }
 
-    /// The same solver with tangents that are differences between motions of the fast stepper, instead of those of the specification: quicker
-    /// for a few numbers, and right among neighbours, too, where the others hold what carriers leave. Where stiffness or settling may change the
-    /// specification's are taken all the same: such motions all begin at rest.
+    /// Uses differences between motions of the fast stepper as derivatives, instead of those of the specification. This
+    /// is faster for a few unknowns. It is also correct with neighbour forces, where the other derivatives hold the
+    /// carriers constant. If stiffness or settling may change, the specification is used nevertheless, since such
+    /// motions must start at rest.
     #[must_use]
     pub fn by_differences(mut self) -> Self {
         let answers = [Unknown::Stiffness, Unknown::Settle];
@@ -210,25 +212,25 @@ impl Solver {
         self.damping = Damping::default();
     }
 
-    /// Root mean square over wishes by weight (cm) of the motion that it has come to.
+    /// Weighted root mean square of the remaining distances of all wishes (cm).
     pub fn left_cm(&self) -> f64 {
         self.aims.mean_square(&self.at.places).sqrt()
     }
 
-    /// What is left of one wish (cm, root mean square over its nodes, or of their mean) in that motion.
+    /// The remaining distance of one wish (cm): root mean square over its nodes, or the distance of their mean.
     pub fn left_of_wish(&self, wish: usize) -> f64 {
         self.aims.left(&self.at.places)[wish]
     }
 
-    /// Where the nodes of a wish are in that motion (head space, cm).
+    /// The current positions of a wish's nodes (head space, cm).
     pub fn places(&self, wish: usize) -> Vec<Vec3> {
         self.aims.places(wish, &self.at.places)
     }
 
-    /// Another goal for a wish. "Now" stays that of the problem.
+    /// Sets another goal for a wish. Goals relative to "now" still refer to the motion of the problem.
     ///
     /// # Errors
-    /// Places that are not as many as the nodes, or no numbers.
+    /// If the number of places is not the number of nodes, or a place is not finite.
     pub fn set_goal(&mut self, wish: usize, goal: Goal) -> Result<(), SettingError> {
         let given = &mut self.problem.wishes[wish];
         check_goal(&goal, given.nodes.len(), wish)?;
@@ -238,26 +240,27 @@ impl Solver {
         Ok(())
     }
 
-    /// One damped step, judged by a simulation of its own: it is taken only if it leads nearer.
+    /// Takes one damped step. A simulation checks it: it is taken only if it leads nearer.
     pub fn step(&mut self) -> Step {
         let before_cm = self.left_cm();
         self.descend_once();
         Step { before_cm, after_cm: self.left_cm() }
     }
 
-    /// The unknowns as it has come to them, in the order of the problem.
+    /// The current values of the unknowns, in the order of the problem.
     pub fn numbers(&self) -> &[f64] {
         &self.at.x
     }
 
-    /// Goes to some numbers of another solver that has the same unknowns; `false`, and no change, where the hair cannot be stepped there.
+    /// Goes to the values of another solver with the same unknowns. If the hair cannot be stepped there, it returns
+    /// `false` and changes nothing.
     pub fn set_numbers(&mut self, numbers: &[f64]) -> bool {
         debug_assert_eq!(numbers.len(), self.layout.numbers);
         let place = self.place(numbers.to_vec());
         place.map(|place| self.at = place).is_some()
     }
 
-    /// The settings that it has come to.
+    /// The current settings.
     pub fn answer(&self) -> Answer {
         let Problem { wind, dynamics, .. } = &self.problem;
         self.layout.guess(wind, &self.at.x).rounded(wind, dynamics)

@@ -1,4 +1,4 @@
-//! What may change for a wish, and the numbers that it is.
+//! The unknowns of a problem, and their numbers.
 
 use glam::DVec3;
 
@@ -10,23 +10,23 @@ use crate::field::{Gust, Keyframe, KeyframedField};
 use crate::free_form::FreeForm;
 use crate::profile::Profile;
 
-/// Something that the solver may change. Intervals are counted from 0, as `force[j]`.
+/// Something that the solver may change. Intervals are counted from 0, like `force[j]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unknown {
     /// The vector of an interval: three numbers.
     Vector(usize),
-    /// The frame through which an interval lasts, where the next one begins; not that of the last interval.
+    /// The last frame of an interval, after which the next one begins. The last interval has no border.
     Border(usize),
     /// The intensity of the gusts.
     Gust,
-    /// The stiffness of the free form: one factor on all its numbers.
+    /// The stiffness of the free form: one common factor.
     Stiffness,
-    /// The settling of the free form: one factor on all its numbers.
+    /// The settling of the free form: one common factor.
     Settle,
 }
 
 impl Unknown {
-    /// How many numbers it is.
+    /// How many numbers this unknown has.
     pub fn numbers(self) -> usize {
         match self {
             Self::Vector(_) => 3,
@@ -44,16 +44,16 @@ impl Unknown {
     }
 }
 
-/// Settings that move the hair as the solver found: what was not free is as it was.
+/// The settings that the solver found. Settings that were not unknown are unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// The intervals.
     pub keyframes: Vec<Keyframe>,
-    /// The gusts on them.
+    /// The gusts.
     pub gust: Option<Gust>,
-    /// `free.stiffness`; none in the paper's form.
+    /// `free.stiffness`. `None` in the paper's form.
     pub stiffness: Option<Profile>,
-    /// `free.settle`; none in the paper's form.
+    /// `free.settle`. `None` in the paper's form.
     pub settle: Option<Profile>,
 }
 

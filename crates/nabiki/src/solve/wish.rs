@@ -6,28 +6,27 @@ use glam::Vec3;
 
 use crate::strands::Strands;
 
-/// A node of a strand of [`Problem::hair`](super::Problem::hair): 0 is the root, which nothing moves.
+/// A node of a strand of [`Problem::hair`](super::Problem::hair). Node 0 is the root, which never moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Node {
-    /// Which strand.
+    /// Index of the strand.
     pub strand: u32,
-    /// Which of its points.
+    /// Index of the point in the strand.
     pub node: u32,
 }
 
-/// Where nodes should be. What is counted from "now" is counted from the motion as the problem gives it, before anything
-/// is solved.
+/// Where nodes should be. "Now" is the motion of the problem before the search.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Goal {
-    /// Each at a place of its own, in the order of the nodes (head space, cm).
+    /// Each node at its own place, in the order of the nodes (head space, cm).
     Places(Vec<Vec3>),
-    /// Each moved by this from where it is now (head space, cm).
+    /// Each node moved by this from where it is now (head space, cm).
     Moved(Vec3),
-    /// Their mean here (head space, cm).
+    /// The mean of the nodes here (head space, cm).
     MeanAt(Vec3),
-    /// Their mean moved by this from where it is now (head space, cm).
+    /// The mean of the nodes moved by this from where it is now (head space, cm).
     MeanMoved(Vec3),
-    /// Each where it is now: a nail.
+    /// Each node where it is now: a nail.
     Stay,
 }
 
@@ -36,15 +35,15 @@ pub enum Goal {
 pub struct Wish {
     /// The frame, from 1 on.
     pub frame: u32,
-    /// What should be there.
+    /// The nodes that should be there.
     pub nodes: Vec<Node>,
-    /// Where.
+    /// Where they should be.
     pub goal: Goal,
-    /// How much it counts beside other wishes, above 0, however many nodes it has.
+    /// Weight relative to other wishes, above 0. It does not depend on the number of nodes.
     pub weight: f32,
 }
 
-/// The nodes within `radius` of a point (cm), `hair` being as it is in the frame that is looked at. Roots are left out.
+/// The nodes within `radius` of a point (cm), without roots. `hair` is the hair in the frame in question.
 pub fn nodes_near(hair: &Strands, point: Vec3, radius: f32) -> Vec<Node> {
     let near = |&p: &Vec3| p.distance_squared(point) <= radius * radius;
     let of_strand = |(s, strand): (usize, &[Vec3])| {
@@ -54,8 +53,8 @@ pub fn nodes_near(hair: &Strands, point: Vec3, radius: f32) -> Vec<Node> {
     hair.iter().enumerate().flat_map(of_strand).collect()
 }
 
-/// The nodes of one strand of `points` points whose place along it, 0 at the root and 1 at the tip by count, lies in `along`.
-/// The root is left out.
+/// The nodes of one strand of `points` points whose position along it (0 at the root, 1 at the tip, by count) lies in
+/// `along`, without the root.
 pub fn nodes_of(strand: u32, points: usize, along: RangeInclusive<f32>) -> Vec<Node> {
     let place = |i: usize| i as f32 / (points - 1) as f32;
     let nodes = (1..points).filter(|&i| along.contains(&place(i)));

@@ -1,4 +1,4 @@
-//! Hair on its way to the frame in which something that may change is first felt.
+//! The motion up to the frame in which an unknown first has an effect.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::solve::aims::Aims;
 use crate::solve::problem::Problem;
 use crate::strands::Strands;
 
-/// Where the hair of a problem is in a frame: solvers of other unknowns, felt later, go on from there.
+/// The state of a problem's hair in a frame. Solvers whose unknowns act later can start there.
 #[derive(Clone, Debug)]
 pub struct Preroll {
     pub(super) timeline: Timeline,
@@ -20,10 +20,10 @@ pub struct Preroll {
 }
 
 impl Preroll {
-    /// Goes to a frame in the wind as the problem has it, before anything is changed; not beyond the last that a wish is about.
+    /// Goes to a frame in the unchanged wind of the problem, but not beyond the last frame of a wish.
     ///
     /// # Errors
-    /// As [`Solver::new`](super::Solver::new).
+    /// As for [`Solver::new`](super::Solver::new).
     pub fn new(problem: &Problem, frame: u32) -> Result<Self, SettingError> {
         let aims = Aims::new(problem)?;
         let steady = Stability::of(&problem.hair, &problem.dynamics)?;

@@ -1,4 +1,4 @@
-//! From one start to the answer: other starts, whole frames, few digits.
+//! From one start to the answer: other starts, borders at whole frames, rounded numbers.
 
 use std::sync::Arc;
 
@@ -12,14 +12,14 @@ use crate::solve::keyed_wind::KeyedWind;
 use crate::solve::report::{Report, WishLeft};
 use crate::solve::unknowns::Answer;
 
-/// How long and how widely is searched.
+/// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Search {
-    /// Steps from each start at the most.
+    /// Largest number of steps from each start.
     pub iterations: usize,
-    /// Starts at the most: the problem's own, and others about it.
+    /// Largest number of starts: that of the problem, and random ones around it.
     pub starts: usize,
-    /// A motion this near to the wishes is near enough (root mean square, cm): no other start is tried.
+    /// A motion this near to the wishes is near enough (root mean square, cm): the search tries no other start.
     pub near_cm: f64,
     /// Seed of the other starts.
     pub seed: u64,
@@ -41,13 +41,13 @@ struct Watched<'a> {
 const DRAWN: usize = 8;
 
 impl Solver {
-    /// Searches from here, and from other starts where that does not lead near enough.
+    /// Searches from here, and from other starts if that does not lead near enough.
     pub fn solve(&mut self, search: &Search) -> Report {
         self.solve_watched(search, &mut |_| true)
     }
 
-    /// The same, which tells after each step how far the nearest motion so far is from the wishes (cm) and goes on while the
-    /// answer is yes. Stopped, it reports what it has come to.
+    /// Like [`solve`](Self::solve). After each step it calls `goes_on` with the smallest distance from the wishes so
+    /// far (cm). If that returns `false`, it stops and reports the best result so far.
     pub fn solve_watched(&mut self, search: &Search, goes_on: &mut dyn FnMut(f64) -> bool) -> Report {
         let (mut starts, near) = (1, search.near_cm.powi(2));
         let mut watched = Watched { goes_on, stopped: false };
@@ -81,15 +81,16 @@ impl Solver {
         }
     }
 
-    /// Ends every search of this solver after the motion that is being computed, while the answer to this is yes.
+    /// Sets a brake: while it returns `true`, every search of this solver ends after the current motion.
     pub fn set_brake(&mut self, brake: impl Fn() -> bool + Send + Sync + 'static) {
         self.brake = Some(Brake(Arc::new(brake)));
     }
 
-    /// Searches on from here for a goal that waits: steps until they gain nothing, then from other starts, about the nearest motion so far
-    /// and about the problem's own by turns, farther and farther away, until what is left and what the prior counts are no more than
-    /// `enough_cm` together (root of the sum of squares). Borders stay as they are. Whether it came to its end, and was not
-    /// [braked](Self::set_brake); it stands at the nearest either way.
+    /// Continues the search for a goal that does not move. It takes steps until they gain nothing. Then it tries other
+    /// starts, alternately around the nearest motion so far and around the problem's, farther and farther away. It ends
+    /// when the remaining distance and the preferences together are at most `enough_cm` (root of the sum of squares).
+    /// Borders do not change. It returns `false` if it was [braked](Self::set_brake). Either way, the solver is at the
+    /// nearest motion found.
     pub fn pursue(&mut self, search: &Search, enough_cm: f64) -> bool {
         let (near, enough) = (search.near_cm.powi(2), enough_cm.powi(2));
         self.too_strong = false;

@@ -1,4 +1,4 @@
-//! What keeps a wish from being met.
+//! Reasons why a wish is not met.
 
 use glam::{DVec3, Vec3};
 
@@ -7,29 +7,31 @@ use crate::body::Body;
 use crate::dynamics::Form;
 use crate::obstacle::Reading;
 
-/// What keeps a wish from being met: the first of these that is true of it. Length comes after a nail and a force where it is less than
-/// half of what is left.
+/// Why a wish is not met: the first of these reasons that applies. `Length` comes after a nail and a force if it
+/// explains less than half of the remaining distance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stop {
-    /// Its goal is farther from the roots than the hair is long up to its nodes (cm, means over them). Roots are where hair begins to be free.
+    /// The goal is farther from the roots than the length of the hair up to its nodes (cm, means). Roots are where hair
+    /// starts to be free.
     Length {
-        /// From the roots to the goal.
+        /// Distance from the roots to the goal.
         away_cm: f64,
-        /// The length of the hair.
+        /// Length of the hair.
         reach_cm: f64,
     },
-    /// A body is in the way: the goal lies in it, or the hair on it. By its name, which is `contact` for the head.
+    /// A body is in the way: the goal lies in it, or the hair lies on it. This is its name; `contact` is the head.
     Body(String),
-    /// Another wish holds the hair, by its number: without it the goal would be reached, or half of what is left.
+    /// Another wish holds the hair. This is its index. Without it, the goal or half of the remaining distance would be
+    /// reached.
     Nail(usize),
-    /// A stronger force (as the field's bound counts it) is needed than the step allows of this hair.
+    /// The wish needs a stronger force (as counted by the field's bound) than is stable for this hair.
     Force {
-        /// The strongest that it allows.
+        /// The strongest stable force.
         strongest: f32,
     },
-    /// What may change does not bring it there: the wind of so many frames before the wish, the frame itself included.
+    /// The unknowns cannot bring the hair there: the wind of this many frames up to the wish's frame.
     Unknowns {
-        /// In which it is felt.
+        /// Number of frames in which the unknowns act.
         frames: u32,
     },
 }
@@ -52,9 +54,9 @@ const STEPS: usize = 12;
 const WORTH: f64 = 0.96;
 
 impl Solver {
-    /// What keeps a wish from being met, of which so much is left (cm), about the motion that a search has come to. Looks for what the wish would
-    /// come to without the others, which takes a few motions. `goal`: where the mean of its nodes should be (head space, cm), which is not where
-    /// this solver was sent if its hair stands for other hair.
+    /// Why a wish with this remaining distance (cm) is not met in the current motion. It computes a few motions to see
+    /// what would happen without the other wishes. `goal` is where the mean of the nodes should be (head space, cm). It
+    /// may differ from the goal of this solver if its hair stands for other hair.
     pub fn stopped_by(&mut self, wish: usize, goal: Vec3, left_cm: f64) -> Stop {
         let goal = goal.as_dvec3();
         let length = self.by_length(wish, goal);
