@@ -1,4 +1,4 @@
-//! What curves of a file carry beside their points, by the names that programs give it.
+//! Attributes of curves in a file, by the names that programs use.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::rc::Rc;
@@ -8,7 +8,7 @@ use nabiki::hair::{Attributes, Other, Per, Role, Stored, Values};
 use crate::curves::Polylines;
 use crate::{Budget, Problem};
 
-/// Where a file keeps what its curves carry: values by name, as many as there are.
+/// A source of attribute values by name.
 pub trait NamedValues {
     /// What reading the file may take.
     fn budget(&self) -> &Budget;
@@ -19,7 +19,7 @@ pub trait NamedValues {
     /// Why the values of a name cannot be looked up, where they are stored by index: see [`misindexed`].
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     fn misindexed(&mut self, name: &str) -> Result<Option<&'static str>, Problem>;
 
     /// Whether the values of a name have more numbers than the `read` first of each, which are all that is read: such values
@@ -31,55 +31,56 @@ pub trait NamedValues {
     /// Values of `N` numbers each; `None` where there are none of that name and shape.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     fn tuples<const N: usize>(&mut self, name: &str) -> Result<Option<Vec<[f32; N]>>, Problem>;
 
     /// Whole numbers, however they are stored; `None` where there are none of that name, or some are not [`whole`].
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     fn integers(&mut self, name: &str) -> Result<Option<Vec<i64>>, Problem>;
 
     /// Words; `None` where there are none of that name.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     fn words(&mut self, name: &str) -> Result<Option<Vec<String>>, Problem>;
 
     /// The values of a name, whatever they are; `None` for a kind that is not known.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     fn whatever(&mut self, name: &str) -> Result<Option<Whatever>, Problem>;
 }
 
-/// Numbers as whole ones; `None` where some are not. A number by chance between 0 and 1, under a name that another program has
-/// for ids, is none.
+/// Converts numbers to whole numbers; `None` if some are not whole. This rejects random numbers between 0 and 1 that
+/// some programs store under the name of ids.
 pub fn whole(numbers: &[f64]) -> Option<Vec<i64>> {
     // Beyond that not every whole number can be told from its neighbours.
     let is_whole = |x: &f64| x.fract() == 0.0 && x.abs() <= 9_007_199_254_740_992.0;
     numbers.iter().all(is_whole).then(|| numbers.iter().map(|&x| x as i64).collect())
 }
 
-/// Values of a file as they are stored.
+/// The values of an attribute as stored in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Whatever {
-    /// What their numbers stand for.
+    /// The meaning of their numbers.
     pub role: Role,
-    /// Numbers or words that make a value.
+    /// Number of numbers or words in a value.
     pub extent: usize,
     /// How the file stores a number or word.
     pub stored: Stored,
-    /// Whether it is one value rather than a list of one.
+    /// Whether it is a single value, as opposed to a list with one entry.
     pub single: bool,
-    /// What has a value, where the file says so: otherwise their number tells.
+    /// What each value belongs to, if the file says so. Otherwise the number of values decides.
     pub per: Option<Per>,
     /// The values.
     pub values: Values,
 }
 
-/// Names under which files keep what hair has a place for: those of USD and Alembic, of Unreal's grooms (`groom_...`), of
-/// Blender (`surface_uv_coordinate`, `UVMap`) and of Houdini (`rootuv`, `id`). The first that has values counts.
+/// The names in files of the attributes that [`Hair`](nabiki::Hair) knows: those of USD and Alembic, of Unreal's grooms
+/// (`groom_...`), of Blender (`surface_uv_coordinate`, `UVMap`) and of Houdini (`rootuv`, `id`). The first name with
+/// values is used.
 pub mod names {
     #![allow(missing_docs)]
     pub const WIDTH: &[&str] = &["widths", "width", "groom_width"];
@@ -93,7 +94,7 @@ pub mod names {
     pub const GROUP: &[&str] = &["groom_group_id", "group_id", "group"];
     pub const GROUP_NAME: &[&str] = &["groom_group_name", "group_name"];
     pub const GUIDE: &[&str] = &["groom_guide", "guide"];
-    /// Those under which our writers write them. What is found under any other name also stays under that name.
+    /// The names that this project's writers use. An attribute found under another name also keeps that name.
     pub const WRITTEN: &[&str] = &[
         "widths",
         "width",
@@ -112,11 +113,12 @@ pub mod names {
         "groom_group_name",
         "groom_guide",
     ];
-    /// Where the points are at rest.
+    /// The positions of the points at rest.
     pub const REST: &str = "rest";
 }
 
-/// Why `count` values cannot be looked up by `indices`: one lies past them, as an absent value's does, or there are none.
+/// Why `count` values cannot be looked up by `indices`: an index is out of range (files use this for a missing value),
+/// or there are no values.
 pub fn misindexed(indices: &[i64], count: usize) -> Option<&'static str> {
     if indices.is_empty() && count > 0 {
         return Some("its list of indices is empty");
@@ -125,27 +127,26 @@ pub fn misindexed(indices: &[i64], count: usize) -> Option<&'static str> {
     indices.iter().any(is_past).then_some("some of its indices name no value")
 }
 
-/// Values that are stored once for many, by `indices` into them.
+/// Expands values that are stored once and referred to by `indices`.
 ///
 /// # Errors
-/// An index past the values; `name` is theirs.
+/// An index out of range. `name` is the attribute's name.
 pub fn indexed<T: Clone>(name: &str, values: &[T], indices: &[i64]) -> Result<Vec<T>, Problem> {
     let pick = |&i: &i64| usize::try_from(i).ok().and_then(|i| values.get(i)).cloned();
     let picked: Option<Vec<T>> = indices.iter().map(pick).collect();
     picked.ok_or_else(|| Problem(format!("{name}: an index past its {} values", values.len())))
 }
 
-/// As [`indexed`], for values of `extent` parts each.
+/// Like [`indexed`], for values of `extent` parts each.
 ///
 /// # Errors
-/// An index past the values; `name` is theirs.
+/// An index out of range. `name` is the attribute's name.
 pub fn indexed_values(name: &str, values: &Values, extent: usize, indices: &[i64]) -> Result<Values, Problem> {
     let all: Vec<usize> = (0..values.len() / extent.max(1)).collect();
     Ok(values.pick(extent, &indexed(name, &all, indices)?))
 }
 
-/// What becomes of the type of an attribute that a format holds as `stored`, with the role `role`; `None` where both are
-/// its own.
+/// How the type of an attribute changes if a format stores it as `stored` with this `role`. `None` if neither changes.
 pub fn type_change(other: &Other, stored: Stored, role: Role) -> Option<String> {
     let name = &other.name;
     if stored != other.stored {
@@ -158,8 +159,8 @@ pub fn type_change(other: &Other, stored: Stored, role: Role) -> Option<String> 
 /// Bytes of a name that is written; readers refuse much longer ones.
 const LONGEST_NAME: usize = 1000;
 
-/// The names under which a format keeps attributes, in their order, each once: as it is what `valid` lets be, other names as
-/// `valid` makes them, with a number behind those that are taken, by another attribute or by what is `reserved`.
+/// Unique names for attributes in a format, in order. A name stays if `valid` returns it unchanged; otherwise the
+/// result of `valid` is used. If a name is taken by another attribute or `reserved`, a number is appended.
 pub fn unique_names(others: &[Other], valid: impl Fn(&str) -> String, reserved: &[&str]) -> Vec<String> {
     let short = |name: &str| {
         let end = (0..=LONGEST_NAME.min(name.len())).rev().find(|&end| name.is_char_boundary(end));
@@ -188,7 +189,7 @@ pub fn unique_names(others: &[Other], valid: impl Fn(&str) -> String, reserved: 
     kept.into_iter().zip(valid).map(unique).collect()
 }
 
-/// That an attribute has another name in a file that is written, as a phrase.
+/// A phrase that reports that an attribute has another name in the written file.
 pub fn renamed(from: &str, to: &str) -> String {
     // Of a name that is as long as a page its beginning tells enough.
     let shown = |name: &str| if name.chars().count() > 80 { format!("{name:.80}...") } else { name.to_owned() };
@@ -227,11 +228,11 @@ fn plural(role: Role) -> &'static str {
 }
 
 impl Polylines {
-    /// What `file` says of the curves, at the points of the strands or at their roots. What has no place of its own is
-    /// carried along under its own name; what cannot be, is named among what is unread.
+    /// Reads the attributes of the curves in `file`, at the points of the strands or at their roots. Unknown attributes
+    /// are kept under their own names. Those that cannot be kept are listed in `unread`.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn attributes(&self, file: &mut impl NamedValues) -> Result<Attributes, Problem> {
         let mut search =
             Search { lines: self, file, used: BTreeSet::new(), misindexed: BTreeSet::new(), unread: Vec::new() };

@@ -1,6 +1,7 @@
-//! The memory that reading one file may take, in sum: [`Budget::LEAST`] bytes, and [`Budget::TIMES`] for each byte of the file.
+//! The memory limit for reading one file: [`Budget::LEAST`] bytes, plus [`Budget::TIMES`] bytes for each byte of the
+//! file.
 //!
-//! Every reader counts tables, names, arrays and copies of shared data here before it makes them.
+//! Every reader counts tables, names, arrays and copies of shared data here before it allocates them.
 
 use std::cell::Cell;
 use std::fmt;
@@ -9,15 +10,16 @@ use nabiki::hair::Values;
 
 use crate::Problem;
 
-/// The memory that reading one file may take: all tables, arrays, names and copies of shared data together, each counted before it is
-/// made.
+/// The memory limit for reading one file. All tables, arrays, names and copies of shared data together count, each
+/// before it is allocated.
 ///
-/// Bounds of single arrays do not help: a few kilobytes can pack thousands of them, or name one thousands of times. An honest file
-/// takes a few times its own length, as numbers of one byte become some of eight and names become paths; [`TIMES`](Self::TIMES)
-/// is well above that. What lies in a file once and is used once counts little, so this is felt where data is packed or shared.
+/// Limits for single arrays do not help: a few kilobytes can pack thousands of arrays, or refer to one thousands of
+/// times. An honest file needs a few times its own length, because one-byte numbers become eight bytes and names become
+/// paths. [`TIMES`](Self::TIMES) is well above that. Data that is stored and used once counts little, so the limit
+/// affects only packed or shared data.
 ///
-/// What is made to stay is [kept](Self::keep); what one question takes is [taken](Self::take) until the [next](Self::next_question), so that
-/// frames, which are read one after another, are not added up.
+/// Memory that stays is [kept](Self::keep). Memory for one request is [taken](Self::take) until the
+/// [next](Self::next_question) one, so frames that are read one after another do not add up.
 #[derive(Debug)]
 pub struct Budget {
     file: u64,
@@ -28,56 +30,56 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Bytes that a file of any length may take.
+    /// Bytes allowed for a file of any length.
     pub const LEAST: u64 = 32 << 20;
-    /// Bytes that it may take beyond, for each of its own.
+    /// Additional bytes allowed per byte of the file.
     pub const TIMES: u64 = 16;
 
-    /// How many times what it may take at once all moments of a motion may take.
+    /// Factor on the limit for all moments of a motion together.
     pub const MOMENTS: u64 = 8;
 
-    /// That of a file of so many bytes, all its parts together.
+    /// The limit for a file of this length (bytes), including all its parts.
     pub fn of(file: u64) -> Self {
         Self { file, kept: Cell::new(0), taken: Cell::new(0), read: Cell::new(0) }
     }
 
-    /// Bytes that may be taken in all.
+    /// The limit in bytes.
     pub fn most(&self) -> u64 {
         self.file.saturating_mul(Self::TIMES).saturating_add(Self::LEAST)
     }
 
-    /// Counts `bytes` that stay as long as the file is open. `what` they are: "names of prims".
+    /// Counts `bytes` that stay while the file is open. `what` describes them, for example "names of prims".
     ///
     /// # Errors
-    /// One line, where that would be more than the file may take.
+    /// One line, if this exceeds the limit.
     pub fn keep(&self, bytes: u64, what: &str) -> Result<(), Problem> {
         self.check(bytes, what)?;
         self.kept.set(self.kept.get() + bytes);
         Ok(())
     }
 
-    /// Counts `bytes` that the question at hand takes.
+    /// Counts `bytes` for the current request.
     ///
     /// # Errors
-    /// As [`keep`](Self::keep).
+    /// As for [`keep`](Self::keep).
     pub fn take(&self, bytes: u64, what: &str) -> Result<(), Problem> {
         self.check(bytes, what)?;
         self.taken.set(self.taken.get() + bytes);
         Ok(())
     }
 
-    /// Counts a list of `count` values of a type, as [`take`](Self::take) does.
+    /// Counts a list of `count` values of a type, like [`take`](Self::take).
     ///
     /// # Errors
-    /// As [`keep`](Self::keep).
+    /// As for [`keep`](Self::keep).
     pub fn take_list<T>(&self, count: usize, what: &str) -> Result<(), Problem> {
         self.take((count as u64).saturating_mul(size_of::<T>() as u64), what)
     }
 
-    /// Counts the copies of `words` for which `indices` stand, as [`take`](Self::take) does.
+    /// Counts the copies of `words` that `indices` refer to, like [`take`](Self::take).
     ///
     /// # Errors
-    /// As [`keep`](Self::keep).
+    /// As for [`keep`](Self::keep).
     pub fn take_words(&self, words: &[String], indices: &[i64], what: &str) -> Result<(), Problem> {
         let copy = |&index: &i64| usize::try_from(index).ok().and_then(|i| words.get(i)).map_or(0, String::len);
         let letters: u64 = indices.iter().map(|index| copy(index) as u64).sum();
@@ -85,10 +87,10 @@ impl Budget {
         self.take(letters, what)
     }
 
-    /// The same for values of `extent` parts each.
+    /// Like [`take_words`](Self::take_words), for values of `extent` parts each.
     ///
     /// # Errors
-    /// As [`keep`](Self::keep).
+    /// As for [`keep`](Self::keep).
     pub fn take_values(&self, values: &Values, extent: usize, indices: &[i64], what: &str) -> Result<(), Problem> {
         let parts = indices.len().saturating_mul(extent);
         match values {
@@ -98,17 +100,17 @@ impl Budget {
         }
     }
 
-    /// Forgets what the last question took.
+    /// Releases the memory of the last request.
     pub fn next_question(&self) {
         self.taken.set(0);
         self.read.set(0);
     }
 
-    /// Begins another moment of the question at hand, which keeps nothing of the last: memory is counted anew, and all that moments
-    /// take together, which is time, may be [`MOMENTS`](Self::MOMENTS) times as much.
+    /// Starts another moment of the current request, which keeps nothing of the last one. Memory is counted from 0
+    /// again. The sum over all moments, which measures time, may be [`MOMENTS`](Self::MOMENTS) times the limit.
     ///
     /// # Errors
-    /// One line, where that is more.
+    /// One line, if the sum exceeds that.
     pub fn next_moment(&self) -> Result<(), Problem> {
         let read = self.read.get().saturating_add(self.taken.get());
         self.taken.set(0);

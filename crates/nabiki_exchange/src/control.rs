@@ -1,34 +1,34 @@
-//! Control points for which curves are drawn through given points.
+//! Computes control points for curves that pass through given points.
 
 use glam::{DVec3, Vec3};
 use nabiki::Strands;
 
 use crate::curves::{Basis, Shape};
 
-/// How curves run between their control points, and where they end.
+/// The basis of curves, and where they end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Course {
-    /// How they run.
+    /// The basis.
     pub basis: Basis,
     /// As [`Shape::pinned`].
     pub pinned: bool,
 }
 
 impl Course {
-    /// Straight lines, which are drawn through their control points.
+    /// Straight lines, which pass through their control points.
     pub const LINEAR: Self = Self { basis: Basis::Linear, pinned: false };
 
-    /// Makes `points`, those of `strands` in any space, control points of curves that are drawn from the first point of each strand
-    /// to its last.
+    /// Replaces `points`, those of `strands` in any space, by the control points of curves that run from the first
+    /// point of each strand to its last.
     ///
-    /// Bezier curves and pinned splines pass through all points. Those that are not pinned are drawn between two control points
-    /// fewer: they have as many knots along the Catmull-Rom curve through the points, and leave the root and reach the tip as the
-    /// parabola through the three points there.
+    /// Bezier curves and pinned splines pass through all points. Unpinned curves lie between all control points but the
+    /// first and last, so they have two knots fewer. Their knots lie on the Catmull-Rom curve through the points; they
+    /// leave the root and reach the tip along the parabola through the three points there.
     ///
-    /// A number of points that makes no such curve is left as it is.
+    /// Strands whose number of points allows no such curve are left unchanged.
     ///
     /// # Panics
-    /// If there are not as many points as the strands have.
+    /// If the number of points is not that of the strands.
     pub fn control_points(self, strands: &Strands, points: &mut [Vec3]) {
         if self == Self::LINEAR {
             return;

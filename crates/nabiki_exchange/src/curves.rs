@@ -1,8 +1,7 @@
-//! Curves as other tools store them, turned into the polylines of strands.
+//! Turns the curves of other tools into the polylines of strands.
 //!
-//! Cubic curves are lines by arc length into segments of equal length; polylines stay as they are unless another
-//! number of segments is asked for. What a curve carries at its control points goes the same way, blended by the
-//! weights that the curve's own basis gives.
+//! Cubic curves are divided by arc length into segments of equal length. Polylines stay unchanged unless you ask for
+//! another number of segments. Values at control points are blended with the weights of the curve's basis.
 
 use glam::Vec3;
 use nabiki::Strands;
@@ -11,39 +10,39 @@ use nabiki::strands::{check_points, not_finite};
 use crate::Problem;
 use crate::knots::Knots;
 
-/// How a curve runs between its control points.
+/// The basis of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Basis {
     /// Straight from point to point.
     Linear,
-    /// Through every third point; the others pull.
+    /// Passes through every third point; the others attract it.
     Bezier,
-    /// Near its points.
+    /// Approximates its points.
     Bspline,
-    /// Through its points.
+    /// Passes through its points.
     CatmullRom,
 }
 
-/// What many curves are, but for their points.
+/// Everything about curves except their points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// Control points of each curve.
     pub counts: Vec<usize>,
     /// How they run.
     pub basis: Basis,
-    /// Whether B-splines and Catmull-Rom curves begin and end at their first and last points ("pinned"), as if a
-    /// further point stood beyond each end, rather than one segment short of them.
+    /// Whether B-splines and Catmull-Rom curves start and end at their first and last points ("pinned"), as if there
+    /// were one more point beyond each end. Otherwise they end one segment short of them.
     pub pinned: bool,
 }
 
 /// One point of a strand as a blend of its curve's control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend {
-    /// Index of the first control point concerned (of all curves).
+    /// Index of the first control point (of all curves).
     pub first: usize,
-    /// Its weight and those of the three after it; 0 where there is none.
+    /// Its weight and those of the three following points; 0 if there is none.
     pub weights: [f64; 4],
-    /// Which segment of the curve it lies on, and how far along (0..1): for values kept at the segments' ends.
+    /// The segment of the curve and the position on it (0..1), for values at the ends of segments.
     pub segment: (usize, f64),
 }
 
@@ -52,18 +51,18 @@ pub struct Blend {
 pub struct Polylines {
     /// The strands.
     pub strands: Strands,
-    /// Where each point came from; empty if the strands' points are the control points themselves.
+    /// The origin of each point. Empty if the strands' points are the control points themselves.
     pub blends: Vec<Blend>,
-    /// The curves they were made from.
+    /// The original curves.
     pub shape: Shape,
-    /// The knots of each curve; empty if they go by their basis alone.
+    /// The knots of each curve; empty if only the basis determines the curves.
     pub knots: Vec<Knots>,
 }
 
-/// Counts as a file has them, once they are known not to be negative and to add up to `total`.
+/// Checks counts from a file: none may be negative, and they must add up to `total`.
 ///
 /// # Errors
-/// A negative count; another sum.
+/// A negative count, or a wrong sum.
 pub fn checked_counts(counts: &[i64], total: usize) -> Result<Vec<usize>, Problem> {
     let mut sum = 0usize;
     let mut checked = Vec::with_capacity(counts.len());
@@ -83,12 +82,13 @@ pub fn checked_counts(counts: &[i64], total: usize) -> Result<Vec<usize>, Proble
 const STEPS: usize = 32;
 
 impl Shape {
-    /// Walks every curve into `segments` segments; `None` keeps polylines as they are, and gives cubic curves as many
-    /// points as they have control points. `points`: control points, curve after curve, root first.
+    /// Divides every curve into `segments` segments. `None` keeps polylines unchanged and gives cubic curves as many
+    /// points as they have control points. `points` are the control points, curve after curve, root first.
     ///
     /// # Errors
-    /// A point that is not finite; a curve with too few control points for its basis, the text names it; a number of segments that is
-    /// 0, or so large that all have more than 2^32 points. Curves of one point or none are strands of as many.
+    /// A point that is not finite; a curve with too few control points for its basis, which the text names; a number of
+    /// segments that is 0 or gives more than 2^32 points in total. Curves of one point or none are allowed and become
+    /// such strands.
     ///
     /// # Panics
     /// If the counts do not add up to the number of points.
@@ -96,14 +96,14 @@ impl Shape {
         self.walk_by(Vec::new(), points, segments)
     }
 
-    /// The same for B-splines that have knots of their own. `knots`: those of each curve, by which it goes, whatever the basis
-    /// is; where there are none at all, curves go by their basis.
+    /// Like [`walk`](Self::walk), for B-splines with knots. `knots` are those of each curve and take precedence over
+    /// the basis. If there are none, the basis applies.
     ///
     /// # Errors
-    /// As there; knots of another number of curves or control points.
+    /// As for [`walk`](Self::walk); knots for another number of curves or control points.
     ///
     /// # Panics
-    /// As there.
+    /// As for [`walk`](Self::walk).
     pub fn walk_by(self, knots: Vec<Knots>, points: Vec<Vec3>, segments: Option<usize>) -> Result<Polylines, Problem> {
         assert_eq!(self.counts.iter().sum::<usize>(), points.len(), "counts and points");
         if let Some(i) = not_finite(&points) {
@@ -260,8 +260,8 @@ impl Polylines {
         self.shape.counts.iter().sum()
     }
 
-    /// What `values` say at each point of the strands; how many there are tells whether they are one for all, one a
-    /// curve, one a control point, or one an end of the curves' segments. `None` for any other number.
+    /// The `values` at each point of the strands. Their number decides whether they are constant, per curve, per
+    /// control point, or per end of the curves' segments. `None` for any other number.
     pub fn at_points<const N: usize>(&self, values: &[[f32; N]]) -> Option<Vec<[f32; N]>> {
         let (shape, all, n) = (&self.shape, self.strands.points().len(), values.len());
         let pieces = |(curve, &count): (usize, &usize)| {
@@ -296,7 +296,7 @@ impl Polylines {
         (n == 1).then(|| vec![values[0]; all])
     }
 
-    /// What `values` say of each curve as a whole: one each, one for all, or that at each root of one a control point.
+    /// The `values` of each curve: one per curve, one for all, or, with one per control point, that at the root.
     pub fn at_roots<T: Clone>(&self, values: &[T]) -> Option<Vec<T>> {
         let counts = &self.shape.counts;
         match values.len() {
@@ -314,7 +314,7 @@ impl Polylines {
         }
     }
 
-    /// Curves along which `values` are not all that of the root: none, where there is not one a control point.
+    /// Number of curves along which `values` vary. 0 unless there is one value per control point.
     pub fn changing<T: PartialEq>(&self, values: &[T]) -> usize {
         let counts = &self.shape.counts;
         if values.len() != self.control_points() || values.len() == counts.len() {
@@ -335,7 +335,7 @@ impl Blend {
         near.map(|(p, w)| p.as_dvec3() * w).sum()
     }
 
-    /// Blends values kept at the control points (of all curves), `N` numbers each.
+    /// Blends values at the control points (of all curves), `N` numbers each.
     pub fn values<const N: usize>(&self, values: &[[f32; N]]) -> [f32; N] {
         let mut sum = [0.0; N];
         for (value, w) in values[self.first..].iter().zip(self.weights) {

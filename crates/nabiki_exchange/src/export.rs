@@ -1,4 +1,4 @@
-//! What every exporter of moving hair is told, and the one way to feed it frames.
+//! The settings of every exporter of moving hair, and the interface for its frames.
 
 use std::io;
 
@@ -10,41 +10,41 @@ use nabiki::{Hair, Mesh, Strands};
 use crate::control::Course;
 use crate::in_place::point;
 
-/// A groom at rest and the world in which its file is to show it.
+/// A groom at rest, and how to write it.
 #[derive(Clone, Debug)]
 pub struct Export<'a> {
-    /// The hair at rest (head space, cm): its strands fix how many points each frame has.
+    /// The hair at rest (head space, cm). Its strands determine the number of points of each frame.
     pub hair: &'a Hair,
-    /// The head to go with it (head space, cm); `None` leaves it out.
+    /// The head to write as well (head space, cm), or `None`.
     pub head: Option<&'a Mesh>,
-    /// Diameter of hair that says nothing of its own (cm); `None` leaves widths out of the file, which readers then
-    /// make up.
+    /// Diameter of hair without widths (cm). `None` writes no widths; readers then use their own default.
     pub default_width: Option<f32>,
-    /// Colour of hair that says nothing of its own (linear RGB); `None` leaves it out.
+    /// Colour of hair without colours (linear RGB). `None` writes no colours.
     pub default_colour: Option<[f32; 3]>,
-    /// Whether the points at rest go along under a name of their own, for programs that put the hair on another head.
+    /// Whether to write the points at rest as an attribute, for programs that transfer the hair to another head.
     pub rest: bool,
-    /// Whether velocities go along with the points of each frame, as much again.
+    /// Whether to write velocities with the points of each frame. They double the size.
     pub velocities: bool,
-    /// Frames a second.
+    /// Frames per second.
     pub frame_rate: f64,
-    /// Number of the first frame given.
+    /// Number of the first frame.
     pub first_frame: i32,
-    /// Takes head space to the space of the file's hair: the inverse of what an importer applied, or identity.
+    /// Transform from head space to the space of the file's hair: the inverse of the import's transform, or the
+    /// identity.
     pub file_from_head: DAffine3,
-    /// How curves run whose control points are written, so that they are drawn through the points of the hair: straight but for
-    /// samples over curves that another file has.
+    /// The basis of the written control points, chosen so that curves pass through the points of the hair. Straight,
+    /// except for samples over the curves of another file.
     pub course: Course,
-    /// Of samples over curves that another file has: whether a skeleton moves these.
+    /// For samples over the curves of another file: whether a skeleton moves those curves.
     pub bound: bool,
-    /// Length of the file's unit (m): 0.01 while `file_from_head` keeps centimetres.
+    /// Length of the file's unit (m): 0.01 if `file_from_head` keeps centimetres.
     pub meters_per_unit: f64,
-    /// Whether +z rather than +y is up in the file. It names the axis; `file_from_head` does the turning.
+    /// Whether +z is up in the file; otherwise +y. This only declares the axis; `file_from_head` does the rotation.
     pub z_up: bool,
 }
 
 impl<'a> Export<'a> {
-    /// Hair without a head in centimetres, y up, from frame 0 on.
+    /// An export of hair without a head, in centimetres, y up, from frame 0 on.
     pub fn new(hair: &'a Hair, frame_rate: f64) -> Self {
         Self {
             hair,
@@ -63,7 +63,7 @@ impl<'a> Export<'a> {
         }
     }
 
-    /// Diameter by point in the file's unit, where the hair has any.
+    /// Diameter by point in the file's unit, if the hair has any.
     pub fn widths(&self) -> Option<Vec<f32>> {
         let scale = self.file_from_head.matrix3.determinant().abs().cbrt() as f32;
         let points = self.hair.strands.points().len();
@@ -79,7 +79,7 @@ impl<'a> Export<'a> {
         points.map(|&p| point(&self.file_from_head, p).to_array()).collect()
     }
 
-    /// 0 opaque .. 1 invisible, by point; `None` where all is opaque.
+    /// Transparency by point, from 0 (opaque) to 1 (invisible); `None` if everything is opaque.
     pub fn transparency(&self) -> Option<Vec<f32>> {
         let attributes = &self.hair.attributes;
         let constant = attributes.constant.transparency.filter(|&t| t != 0.0);
@@ -87,8 +87,8 @@ impl<'a> Export<'a> {
         attributes.transparency.clone().or(one)
     }
 
-    /// Refuses attributes of a wrong length, strands that are no curves, a frame rate that is none, and a unit that is
-    /// none, and a colour that is none.
+    /// Refuses attributes of the wrong length, strands with fewer than two points, and an invalid frame rate, unit or
+    /// colour.
     pub fn check(&self) -> io::Result<()> {
         let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         if let Err(e) = self.hair.check_lengths() {
@@ -113,10 +113,11 @@ impl<'a> Export<'a> {
         Ok(())
     }
 
-    /// The points of `strands` in the file's space, as control points of its curves: their own, or `room` filled with them.
+    /// The points of `strands` in the file's space, as control points of its curves: the points themselves, or `room`
+    /// filled with them.
     ///
     /// # Errors
-    /// Strands that are not those of the groom, a point that is not finite.
+    /// If the strands do not match the groom, or a point is not finite.
     pub fn points<'p>(&self, strands: &'p Strands, room: &'p mut Vec<Vec3>) -> io::Result<&'p [Vec3]> {
         let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         if strands.starts() != self.hair.strands.starts() {
@@ -137,14 +138,14 @@ impl<'a> Export<'a> {
         }
     }
 
-    /// The points of the head in the file's space, and whether that is mirrored.
+    /// The points of the head in the file's space, and whether that space is mirrored.
     pub fn skin(&self, mesh: &Mesh) -> (Vec<Vec3>, bool) {
         let points = mesh.positions.iter().map(|&p| point(&self.file_from_head, p)).collect();
         (points, self.file_from_head.matrix3.determinant() < 0.0)
     }
 
-    /// The transform of the prim or object above the hair, which moves as the head does. Its columns are the rows of
-    /// formats that multiply rows from the left.
+    /// The transform of the prim or object above the hair, which moves with the head. For formats that multiply row
+    /// vectors from the left, its columns are their rows.
     pub fn parent(&self, world_from_head: &DAffine3) -> DMat4 {
         if *world_from_head == DAffine3::IDENTITY {
             return DMat4::IDENTITY;
@@ -153,8 +154,8 @@ impl<'a> Export<'a> {
     }
 }
 
-/// Velocities by differences of frames, one frame late: those of a frame take its points exactly to the next frame's, as
-/// readers that move points along their velocities expect.
+/// Velocities from differences of frames, one frame late. The velocities of a frame take its points exactly to those of
+/// the next frame, as readers that move points along their velocities expect.
 #[derive(Debug, Default)]
 pub struct Velocities {
     last: Vec<Vec3>,
@@ -162,7 +163,7 @@ pub struct Velocities {
 }
 
 impl Velocities {
-    /// The velocities (units a second) of the frame before that of `points`; `None` at the first frame.
+    /// The velocities (units per second) of the frame before `points`; `None` at the first frame.
     ///
     /// # Errors
     /// A velocity that is not finite.
@@ -181,13 +182,13 @@ impl Velocities {
         }
     }
 
-    /// Those of the last frame, which goes on as it came; `None` for hair of a single frame.
+    /// The velocities of the last frame, continued from the frame before; `None` for hair with a single frame.
     pub fn of_last(&self) -> Option<&[Vec3]> {
         (!self.found.is_empty()).then_some(&self.found)
     }
 }
 
-/// Takes one frame of the hair after another; the file has its name only once `finish` returned.
+/// A writer that takes the frames of the hair in order. The file gets its name when `finish` returns.
 pub trait FrameSink: Send {
     /// Writes the next frame.
     ///

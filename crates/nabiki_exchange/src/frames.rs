@@ -1,24 +1,24 @@
-//! The frames of a motion whose samples may stand at any times.
+//! The frames of a motion whose samples may be at any times.
 
-/// Frames of one motion that are read at most: three hours of them.
+/// Largest number of frames of a motion: three hours.
 pub const MOST_FRAMES: usize = 1 << 18;
 
 /// Times apart by no more than this, as a share of a frame, are the same: files round them to a few digits.
 const SAME_TIME: f64 = 1e-3;
 
-/// The frames of a motion, in the unit in which its file counts time.
+/// The frames of a motion, in the time unit of its file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frames {
-    /// When they are.
+    /// Times of the frames.
     pub times: Vec<f64>,
-    /// From one to the next; 0 where there is none.
+    /// Interval between frames; 0 if there is only one.
     pub step: f64,
-    /// Samples that stand at none of them.
+    /// Number of samples that are not at a frame.
     pub between: usize,
 }
 
 impl Frames {
-    /// Evenly spaced samples as frames; `None` for others.
+    /// Evenly spaced samples as frames; `None` if they are not evenly spaced.
     pub fn as_sampled(samples: &[f64]) -> Option<Self> {
         let (&first, &last) = (samples.first()?, samples.last()?);
         let step = (last - first) / (samples.len() - 1).max(1) as f64;
@@ -27,8 +27,8 @@ impl Frames {
         even.then(|| Self { times: samples.to_vec(), step, between: 0 })
     }
 
-    /// The whole frames, `step` apart from time 0 on, from the first sample to the last; the first sample where no whole
-    /// frame lies among them. `None` for more than [`MOST_FRAMES`].
+    /// The whole frames, `step` apart from time 0 on, between the first and the last sample. If there is none between
+    /// them, the first sample. `None` for more than [`MOST_FRAMES`].
     pub fn whole(samples: &[f64], step: f64) -> Option<Self> {
         let Some((&first, &last)) = samples.first().zip(samples.last()) else { return Some(Self::default()) };
         let (from, to) = ((first / step - SAME_TIME).ceil(), (last / step + SAME_TIME).floor());
@@ -47,19 +47,20 @@ impl Frames {
         Some(Self { times, step, between })
     }
 
-    /// Whether whole frames, as [`whole`](Self::whole) counts them, are among these.
+    /// Whether whole frames, as counted by [`whole`](Self::whole), are among these.
     pub fn are_whole(&self) -> bool {
         let number = self.times.first().map_or(0.0, |first| first / self.step);
         self.step > 0.0 && (number - number.round()).abs() <= SAME_TIME
     }
 
-    /// Frames a second, of which `second` is the length; a rate that is whole but for rounding is whole.
+    /// Frames per second, where `second` is the length of a second. A rate that is whole up to rounding is returned as
+    /// whole.
     pub fn rate(&self, second: f64) -> f64 {
         let rate = second / self.step;
         if (rate - rate.round()).abs() < 1e-9 * rate.round() { rate.round() } else { rate }
     }
 
-    /// What is not read of the samples, a phrase each.
+    /// Phrases about samples that are not read.
     pub fn unread(&self, second: f64) -> Vec<String> {
         let between = (self.between > 0).then(|| {
             let samples = if self.between == 1 { "1 sample".to_owned() } else { format!("{} samples", self.between) };

@@ -1,4 +1,4 @@
-//! Curves that lie in several objects of a file, as one groom.
+//! Joins the curves of several objects of a file into one groom.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -24,11 +24,12 @@ pub struct Gathered {
 }
 
 impl Gathered {
-    /// Appends a part that lies below the transform `world_from_part`; `group` names it where it has no groups of its
-    /// own. Curves of fewer than two points are left out. An attribute stays only if all parts that have curves have it, and is otherwise named among what is unread.
+    /// Appends a part below the transform `world_from_part`. `group` is its group name, unless it has groups. Curves
+    /// with fewer than two points are left out. An attribute is kept only if all parts with curves have it; otherwise
+    /// it is listed in `unread`.
     ///
     /// # Errors
-    /// More points in all than strands can count.
+    /// If there are more points in total than strands can count.
     pub fn append(
         &mut self,
         mut part: Hair,
@@ -69,10 +70,10 @@ impl Gathered {
         Ok(())
     }
 
-    /// The whole. Objects of one strand each, as some tools write them, are no groups.
+    /// The joined hair. Objects with one strand each, as some tools write them, do not become groups.
     ///
     /// # Errors
-    /// A point that is not finite; points so far apart that their distance is not.
+    /// If a point, or the distance between two points, is not finite.
     pub fn hair(self) -> Result<InPlace, Problem> {
         let mut all = self.all.unwrap_or(InPlace { hair: Hair::default(), world_from_hair: DAffine3::IDENTITY });
         if self.named >= all.hair.strands.len() {
@@ -93,14 +94,14 @@ impl Gathered {
     }
 }
 
-/// Paths of curves that are closed, which no hair is: a rein, or the path of a camera.
+/// Paths of closed curves, which are not hair: a rein, or the path of a camera.
 pub struct Closed(pub Vec<String>);
 
 impl Closed {
-    /// Refuses them where they are all that there is.
+    /// Refuses them if there are no other curves.
     ///
     /// # Errors
-    /// Which they are.
+    /// Names the curves.
     pub fn check(&self, open: usize) -> Result<(), Problem> {
         match self.0.first().filter(|_| open == 0) {
             Some(path) => {
@@ -113,7 +114,7 @@ impl Closed {
         }
     }
 
-    /// That they are left out, a phrase each.
+    /// Phrases that report that they are left out.
     pub fn unread(&self) -> impl Iterator<Item = String> {
         self.0.iter().map(|path| format!("curves {path}, which are closed, unlike hair"))
     }

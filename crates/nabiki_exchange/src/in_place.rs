@@ -1,4 +1,4 @@
-//! Curves where they stand in a file.
+//! Curves with their transform in a file.
 
 use glam::{DAffine3, Vec3};
 use nabiki::Hair;
@@ -12,12 +12,12 @@ use crate::Problem;
 pub struct InPlace {
     /// The curves in their own space.
     pub hair: Hair,
-    /// Takes them to the file's world; identity where objects of different transforms were joined, which are in the
-    /// world already.
+    /// Transform to the file's world. The identity if objects with different transforms were joined, since those are
+    /// already in the world.
     pub world_from_hair: DAffine3,
 }
 
-/// A point taken through a transform.
+/// Applies a transform to a point.
 pub fn point(target_from_source: &DAffine3, p: Vec3) -> Vec3 {
     target_from_source.transform_point3(p.as_dvec3()).as_vec3()
 }
@@ -26,7 +26,7 @@ impl InPlace {
     /// The curves in the file's world.
     ///
     /// # Errors
-    /// Points that leave the range of numbers.
+    /// If a point leaves the range of f32.
     pub fn in_world(self) -> Result<Hair, Problem> {
         if self.world_from_hair == DAffine3::IDENTITY {
             return Ok(self.hair);
@@ -36,7 +36,8 @@ impl InPlace {
         Ok(hair)
     }
 
-    /// The curves where `target_from_world` takes them from the file's world: in one step, which loses nothing on the way.
+    /// The curves in the space that `target_from_world` leads to from the file's world. Both transforms are applied in
+    /// one step, without loss of precision.
     pub fn through(self, target_from_world: &DAffine3) -> Hair {
         let mut hair = self.hair.transformed(&(*target_from_world * self.world_from_hair));
         if self.world_from_hair != DAffine3::IDENTITY {
@@ -50,7 +51,7 @@ impl InPlace {
     }
 }
 
-/// Refuses points of which no size can be told.
+/// Refuses points whose extent is not finite.
 pub fn check_extent(points: &[Vec3]) -> Result<(), Problem> {
     if let Some(i) = not_finite(points) {
         return Err(Problem(format!("point {i} of its curves is not finite")));

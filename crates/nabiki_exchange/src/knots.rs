@@ -1,4 +1,4 @@
-//! B-splines that have knots of their own: where along its parameter a curve goes over from one polynomial to the next.
+//! B-splines with knots: the parameters at which a curve changes from one polynomial to the next.
 
 use crate::Problem;
 
@@ -18,12 +18,13 @@ pub struct Knots {
 }
 
 impl Knots {
-    /// Those of a curve of so many control points. `knots` never decrease, and are as many as control points and order
-    /// together, or two fewer, for programs that leave out the first and the last.
+    /// The knots of a curve with this many control points. `knots` must not decrease. Their number is that of control
+    /// points plus order, or two fewer for programs that leave out the first and the last.
     ///
     /// # Errors
-    /// An order other than 2 to 4, fewer control points than the order, another number of knots, one that is not finite or
-    /// less than the one before it, knots that make the curve break or leave nothing of it. The line is without the curve.
+    /// An order other than 2 to 4, fewer control points than the order, a wrong number of knots, a knot that is not
+    /// finite or less than the one before it, or knots that break the curve or leave it empty. The text does not name
+    /// the curve.
     pub fn new(order: usize, control_points: usize, knots: &[f64]) -> Result<Self, Problem> {
         if !(2..=4).contains(&order) {
             return Err(Problem(format!("has order {order}, where 2 to 4 are read")));
@@ -66,11 +67,11 @@ impl Knots {
         Ok(Self { degree, inner: inner.to_vec(), spans })
     }
 
-    /// Those of many curves, one after another in `knots`; all curves have the first and last knot, or none has.
-    /// `orders`: one a curve, or one for all. `counts`: control points of each.
+    /// The knots of many curves, one after another in `knots`. Either all curves have the first and last knot, or none
+    /// has. `orders` has one entry per curve, or one for all. `counts` are the control points of each.
     ///
     /// # Errors
-    /// Numbers that do not fit each other; those of [`new`](Self::new), with the curve.
+    /// Inconsistent numbers, or as for [`new`](Self::new), naming the curve.
     pub fn of_curves(orders: &[usize], counts: &[usize], knots: &[f64]) -> Result<Vec<Self>, Problem> {
         let curves = counts.len();
         if orders.len() != curves && orders.len() != 1 {
@@ -103,18 +104,18 @@ impl Knots {
         self.inner.len() + 1 - self.degree
     }
 
-    /// Whether the curve goes straight from control point to control point.
+    /// Whether the curve is a polyline through its control points.
     pub fn is_straight(&self) -> bool {
         self.degree == 1
     }
 
-    /// Number of polynomials that make the curve.
+    /// Number of polynomial pieces of the curve.
     pub fn pieces(&self) -> usize {
         self.spans.len()
     }
 
-    /// The first control point on which the curve depends at `t` (0..1) of a piece, its weight and those of the next three.
-    /// They add up to 1.
+    /// The first control point that influences the curve at `t` (0..1) of a piece, and the weights of it and the next
+    /// three. They add up to 1.
     ///
     /// # Panics
     /// If there is no such piece.

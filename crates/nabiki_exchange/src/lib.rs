@@ -1,8 +1,12 @@
-//! What the formats that exchange grooms between programs share, apart from how each is stored.
+//! The parts shared by all formats that exchange grooms between programs.
 //!
-//! [`curves`] turns curves into strands, by their [`Knots`] where they have any, [`attributes`] knows the names by which programs call what curves carry,
-//! [`Gathered`] joins curves of several objects, a [`Budget`] bounds what reading a file takes, [`Frames`] are those of samples at any times, [`export`] is what a writer of moving hair is told, and
-//! [`GroomReader`] what a reader answers.
+//! - [`curves`] turns curves into strands, using their [`Knots`] if they have any.
+//! - [`attributes`] knows the names that programs use for the data of curves.
+//! - [`Gathered`] joins the curves of several objects.
+//! - [`Budget`] limits the memory for reading a file.
+//! - [`Frames`] finds frames in samples at any times.
+//! - [`export`] has the settings of a writer of moving hair.
+//! - [`GroomReader`] is the interface of a reader.
 //!
 //! ```
 //! use glam::Vec3;

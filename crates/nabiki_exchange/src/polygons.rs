@@ -1,4 +1,4 @@
-//! Polygons as files store them, cut into the triangles of a mesh.
+//! Divides polygons from files into the triangles of a mesh.
 
 use glam::{Affine3A, Vec2, Vec3};
 use nabiki::Mesh;
@@ -6,7 +6,7 @@ use nabiki::Mesh;
 use crate::Problem;
 use crate::curves::checked_counts;
 
-/// Polygons as they are stored.
+/// Polygons as stored in a file.
 #[derive(Clone, Debug)]
 pub struct Polygons<'a> {
     /// Vertices, in the polygons' own space.
@@ -15,18 +15,18 @@ pub struct Polygons<'a> {
     pub counts: &'a [i64],
     /// Indices into `positions`, polygon after polygon.
     pub corners: &'a [i64],
-    /// How they run, seen from outside.
+    /// Whether they are clockwise, seen from outside.
     pub clockwise: bool,
     /// Texture coordinates, v upward, if there are any.
     pub uvs: Option<Uvs>,
 }
 
-/// Texture coordinates, and what has them.
+/// Texture coordinates, and what they belong to.
 #[derive(Clone, Debug)]
 pub enum Uvs {
-    /// Each of the positions.
+    /// One per position.
     OfVertices(Vec<[f32; 2]>),
-    /// Each of the corners.
+    /// One per corner.
     OfCorners(Vec<[f32; 2]>),
 }
 
@@ -57,12 +57,13 @@ impl Uvs {
     }
 }
 
-/// Appends polygons to `mesh`, cut into triangles from their first corners; `to` takes their space to the mesh's, and
-/// turns them round where it mirrors. Where any polygons have no texture coordinates, `mesh` has none. Those that fit neither
-/// positions nor corners, or are not finite, are left out: the answer says why.
+/// Appends polygons to `mesh`, divided into triangles from their first corners. `to` is the transform to the mesh's
+/// space; if it mirrors, triangles are reversed. If any polygons have no texture coordinates, the mesh has none.
+/// Texture coordinates that are not finite, or fit neither positions nor corners, are left out; the result gives the
+/// reason.
 ///
 /// # Errors
-/// Counts that do not fit the corners, a corner past the positions.
+/// Counts that do not match the corners, or a corner out of range.
 pub fn add_polygons(
     mesh: &mut Mesh,
     Polygons { positions, counts, corners, clockwise, uvs }: Polygons<'_>,

@@ -1,13 +1,13 @@
-//! What is wrong with a file.
+//! An error about the content of a file.
 
 use std::fmt;
 
-/// What is wrong with a file, in one line without the file's name.
+/// An error about the content of a file, in one line without the file's name.
 #[derive(Debug)]
 pub struct Problem(pub String);
 
 impl Problem {
-    /// A line that says it.
+    /// An error with this text.
     pub fn new(text: &str) -> Self {
         Self(text.to_owned())
     }

@@ -1,4 +1,4 @@
-//! What every reader of grooms answers, whatever the format.
+//! The interface of readers of grooms, for all formats.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use nabiki::{Hair, Mesh};
@@ -7,10 +7,10 @@ use crate::Problem;
 use crate::control::Course;
 use crate::in_place::InPlace;
 
-/// What is said of a mesh whose points move: heads and bodies are rigid.
+/// The message about a mesh whose points move: heads and bodies are rigid.
 pub const FIRST_SHAPE: &str = "it keeps the shape of the first frame";
 
-/// A file of curves, meshes and transforms. Everything comes in the file's own unit and axes.
+/// A file of curves, meshes and transforms. All results are in the file's unit and axes.
 pub trait GroomReader {
     /// What the file holds and says of itself, without reading its values.
     ///
@@ -109,28 +109,28 @@ pub trait GroomReader {
     }
 }
 
-/// What a file holds and says of itself.
+/// The contents of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contents {
     /// Paths of objects with curves.
     pub curves: Vec<String>,
     /// Paths of meshes.
     pub meshes: Vec<String>,
-    /// Times of the curves' frames (s); none for curves that stand still.
+    /// Times of the curves' frames (s). Empty for curves that do not move.
     pub times: Vec<f64>,
-    /// When the shot begins (s): with the first of several frames of the curves, or else as the file says; `None` where nothing
-    /// does.
+    /// Start of the shot (s): the first of several frames of the curves, or the time that the file gives; `None` if
+    /// there is neither.
     pub start: Option<f64>,
-    /// Frames a second; 24 where nothing says so.
+    /// Frames per second; 24 if the file does not say.
     pub frame_rate: f64,
-    /// Length of the unit (m), where the file says it.
+    /// Length of the unit (m), if the file says.
     pub meters_per_unit: Option<f64>,
-    /// Whether z is up, where the file says it.
+    /// Whether z is up, if the file says.
     pub z_up: Option<bool>,
 }
 
 impl Contents {
-    /// Number of the first frame, as frames are counted from time 0.
+    /// Number of the first frame, counting frames from time 0.
     pub fn first_frame(&self) -> i32 {
         (self.times.first().unwrap_or(&0.0) * self.frame_rate).round() as i32
     }
@@ -139,17 +139,17 @@ impl Contents {
 /// One object of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prim {
-    /// Where it stands.
+    /// Its path.
     pub path: String,
-    /// What it is.
+    /// Its kind.
     pub kind: PrimKind,
-    /// Samples over time of what moves most in it; 0 or 1 where nothing does.
+    /// Number of samples over time of its most animated property; 0 or 1 if nothing moves.
     pub samples: usize,
-    /// What it is bound to, by the file's word: `material:binding`.
+    /// What it is bound to, in the file's terms: `material:binding`.
     pub relationships: Vec<String>,
 }
 
-/// What an object of a file is.
+/// The kind of an object in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PrimKind {
     /// Curves.
@@ -172,50 +172,50 @@ pub enum PrimKind {
         /// Vertices.
         points: usize,
     },
-    /// A transform of what stands below it.
+    /// A transform of the objects below it.
     Transform,
-    /// Joints of a skeleton, by their own paths.
+    /// A skeleton, with the paths of its joints.
     Skeleton {
         /// The joints.
         joints: Vec<String>,
     },
-    /// Anything else, by the file's word.
+    /// Anything else, in the file's terms.
     Other(String),
 }
 
-/// Which curves are read, by their paths: all, until some are named.
+/// Which curves to read, by path: all, unless some are chosen.
 #[derive(Clone, Debug, Default)]
 pub struct Kept(Option<Vec<String>>);
 
 impl Kept {
-    /// These alone.
+    /// Only these.
     pub fn only(paths: Vec<String>) -> Self {
         Self(Some(paths))
     }
 
-    /// Whether the curves at a path are.
+    /// Whether to read the curves at a path.
     pub fn holds(&self, path: &str) -> bool {
         self.0.as_ref().is_none_or(|paths| paths.iter().any(|kept| kept == path))
     }
 }
 
-/// Where an object is at a time.
+/// The position of an object at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
     /// Time (s).
     pub time: f64,
     /// Origin of the object in the world (the file's unit).
     pub position: DVec3,
-    /// Its axes in the world.
+    /// Its rotation in the world.
     pub rotation: DQuat,
-    /// How long they are.
+    /// Its scale.
     pub scale: DVec3,
-    /// Whether they are not normal to each other: then no rotation and scale are all of its transform.
+    /// Whether its axes are not orthogonal. Rotation and scale are then not the complete transform.
     pub sheared: bool,
 }
 
 impl Placed {
-    /// An object that a transform has in the world at a time (s).
+    /// The position of an object with this world transform at a time (s).
     pub fn of(time: f64, world: &DMat4) -> Self {
         const NORMAL: f64 = 1e-4;
         let (scale, rotation, position) = world.to_scale_rotation_translation();

@@ -1,20 +1,20 @@
-//! What does not show in the program that a file comes from, and what is said of it.
+//! Objects that are hidden in the program that wrote a file, and the messages about them.
 
-/// What keeps an object of a file out of a final picture.
+/// Why an object of a file is hidden in final renders.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hidden {
-    /// The path of the object that says so: it, or one above it.
+    /// The path of the object that hides it: itself, or one above it.
     pub by: String,
-    /// What it says: `visibility` or `purpose`.
+    /// The property: `visibility` or `purpose`.
     pub name: &'static str,
-    /// The file's word for that.
+    /// The value in the file.
     pub value: String,
-    /// Whether it holds in some frames only.
+    /// Whether it applies only in some frames.
     pub at_times: bool,
 }
 
 impl Hidden {
-    /// The same as a phrase about what is read all the same.
+    /// A phrase that reports that the object is read nevertheless.
     pub fn kept(&self) -> String {
         let Self { by, name, value, at_times } = self;
         format!("{name} of {by}: it is \"{value}\" there{}", if *at_times { " at some frames" } else { "" })
@@ -26,19 +26,19 @@ impl Hidden {
     }
 }
 
-/// A mesh of a file, and what keeps it out of pictures.
+/// A mesh of a file, and why it is hidden.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Candidate<T> {
-    /// The mesh, as its reader knows it.
+    /// The mesh, in the reader's type.
     pub mesh: T,
     /// Its path.
     pub path: String,
-    /// What hides it.
+    /// The reasons for hiding it.
     pub hidden: Vec<Hidden>,
 }
 
-/// Of the meshes that may make a head or body those that show at any time, or all where none does, and what is said of the
-/// others and of what hides those, a phrase each.
+/// The meshes for a head or body that are visible at any time, or all if none is. Also returns phrases about the
+/// others, and about what hides meshes that are used.
 pub fn those_that_show<T>(all: Vec<Candidate<T>>) -> (Vec<T>, Vec<String>) {
     let any_shows = all.iter().any(|mesh| mesh.hidden.iter().all(|hidden| hidden.at_times));
     let (mut chosen, mut unread) = (Vec::new(), Vec::new());
@@ -56,7 +56,7 @@ pub fn those_that_show<T>(all: Vec<Candidate<T>>) -> (Vec<T>, Vec<String>) {
     (chosen, unread)
 }
 
-/// What is said of the faces of a mesh that it names as holes.
+/// The message about faces of a mesh that are marked as holes.
 pub fn kept_holes(path: &str, holes: usize) -> Option<String> {
     (holes > 0).then(|| format!("holeIndices of {path}: the {holes} faces that they take out are kept"))
 }

@@ -1,12 +1,12 @@
-//! A file of which little pieces are read here and there.
+//! A file from which small pieces are read at many places.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
 /// Bytes that are fetched at once. Longer pieces are read where they go.
 const BYTES: usize = 8192;
 
-/// What is read through a window: neighbouring numbers, of which an archive has a hundred thousand, are asked of the system once. (A
-/// `BufReader` lets go of what it has wherever it is told to go.)
+/// A buffered file for small reads at many places. An archive has 100,000 neighbouring numbers, which one system call
+/// reads together. (A `BufReader` discards its buffer on every seek.)
 #[derive(Debug)]
 pub struct Window<R> {
     from: R,
@@ -20,10 +20,10 @@ pub struct Window<R> {
 }
 
 impl<R: Read + Seek> Window<R> {
-    /// Begins where `from` stands.
+    /// Starts at the current position of `from`.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     pub fn new(mut from: R) -> io::Result<Self> {
         let at = from.stream_position()?;
         Ok(Self { from, stands: at, at, held: Vec::new(), begins: 0 })

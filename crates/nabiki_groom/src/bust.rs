@@ -1,7 +1,7 @@
 //! The built-in bust, read from `bust.bin`: its mesh and its sampled distance.
 //!
-//! `nabiki_bust` (in the same repository) sculpts it and writes that file. Rounded to multiples of a power of two, it
-//! is the same on every machine, and its halves are mirror images to the bit.
+//! `nabiki_bust` (in the same repository) models the bust and writes that file. Numbers are rounded to multiples of a
+//! power of two, so the bust is the same on every machine and its halves are exact mirror images.
 
 mod head;
 mod layout;

@@ -16,22 +16,22 @@
 
 use nabiki::glam::DVec3;
 
-/// Passes after which [`Beam::settle`] gives up; under 40 are needed for any strand of the tests.
+/// Number of passes after which [`Beam::settle`] gives up. No strand of the tests needs 40.
 pub const MOST_PASSES: usize = 400;
 
 /// A turn at one joint that the starting shape does not exceed (cosine): the chord form has none of 90 degrees.
 const STEEPEST_START: f64 = 0.5;
 
-/// What holds the near end of a beam.
+/// The support of a beam's near end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
     /// A root: the first joint is half a segment from the clamp, so it turns by half its curvature.
     Clamped,
-    /// An earlier segment of the same strand: a joint like any other.
+    /// An earlier segment of the same strand: a normal joint.
     Continued,
 }
 
-/// A strand's material and its near end.
+/// A strand's stiffness and its near end.
 #[derive(Clone, Copy, Debug)]
 pub struct Beam {
     /// Bending stiffness E I (load per unit length x cm^3).
@@ -40,11 +40,11 @@ pub struct Beam {
     pub segment: f64,
     /// a0 of the first segment: the direction of the root or of the segment before (unit vector).
     pub clamp: DVec3,
-    /// What holds it.
+    /// The support of the near end.
     pub hold: Hold,
 }
 
-/// Arrays that [`Beam::settle`] works in, kept between strands so that none is allocated in passing.
+/// Scratch arrays of [`Beam::settle`], reused between strands to avoid allocations.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace {
     pull: Vec<DVec3>,
@@ -87,7 +87,7 @@ impl Beam {
     /// Repeats the pass with the lever arms of the deformed shape until no segment turns by more than `tolerance`
     /// (rad): `directions` (unit vectors) become those of the heavy elastica. Returns the number of passes taken.
     ///
-    /// With `warm` the search starts from what `directions` holds, else from a strand that gives way joint by joint.
+    /// With `warm`, the search starts from `directions`; otherwise from a strand that gives way joint by joint.
     ///
     /// Repeating the bare pass diverges where w L^3 / EI is above about 8 (it overshoots by that factor over 7.84).
     /// Here each pass solves for all turns at once: M_i - M_(i+1) is the moment on segment i alone, about its own near

@@ -1,4 +1,4 @@
-//! Curls: a strand wound about the line in which it would hang without them.
+//! Curls: a strand wound around the line in which it would hang without them.
 //!
 //! At the distance s along that line the strand is off it by q(s) = ramp(s) (a turning radius + the way to the middle of
 //! the clump), in a frame that goes along the line without twisting (Bishop 1975). A segment of length d takes the line

@@ -1,24 +1,25 @@
-//! The face of the built-in bust: the lines that its sculptor followed, and what is painted along them.
+//! The face of the built-in bust: its feature lines, and the paint along them.
 //!
-//! Both halves are alike: z stands for |z| throughout, t for how far along a feature (each line says of which). Head space, cm.
+//! Both halves are symmetric: z means |z| throughout. t is the position along a feature, defined for each line. Head
+//! space, cm.
 
 use nabiki::glam::{Vec2, Vec3};
 
-/// Where the brow runs: `t` 0 beside the nose, 1 at its end.
+/// The line of the brow: `t` is 0 next to the nose and 1 at its end.
 pub fn brow_line(t: f32) -> f32 {
     0.95 + 1.75 * t - 1.95 * t * t * t
 }
 
-/// How far along the brow.
+/// Position along the brow.
 pub fn along_brow(z: f32) -> f32 {
     (z - 1.35) / 3.85
 }
 
-/// The middle of a pupil, seen from before the face.
+/// The centre of a pupil, seen from the front.
 pub const PUPIL: [f32; 2] = [-0.72, 3.12];
 
-/// The edges of the upper and of the lower lid: `t` from -1, the inner corner, to 1, the outer. The upper one stands highest toward
-/// the nose, the lower one hangs lowest away from it, and the outer corner lies higher.
+/// The edges of the upper and the lower lid: `t` is -1 at the inner corner and 1 at the outer. The upper edge is
+/// highest toward the nose, the lower edge is lowest away from it, and the outer corner is the higher one.
 pub fn lid_edges(t: f32) -> [f32; 2] {
     let corners = -0.83 + 0.1 * t;
     let bow = (1.0 - t * t).max(0.0);
@@ -26,17 +27,17 @@ pub fn lid_edges(t: f32) -> [f32; 2] {
     [corners + full * (0.51 - 0.06 * t), corners - bow * (0.34 + 0.07 * t)]
 }
 
-/// How far along the lids.
+/// Position along the lids.
 pub fn along_lids(z: f32) -> f32 {
     (z - PUPIL[1]) / 1.53
 }
 
-/// Where the lips meet: a shallow wave, lowest in the middle, and a little up at the corners.
+/// The line where the lips meet: a shallow wave, lowest in the middle, rising slightly at the corners.
 pub fn lip_parting(z: f32, t: f32) -> f32 {
     -7.12 - 0.06 * bump(z / 1.1) - 0.06 * t * t + 0.05 * t * t * t * t
 }
 
-/// The upper and the lower edge of the lips: `t` 0 in the middle, 1 at the corner.
+/// The upper and the lower edge of the lips: `t` is 0 in the middle and 1 at the corner.
 pub fn lip_edges(z: f32, t: f32) -> [f32; 2] {
     let fall = t.min(1.0);
     [-6.3 - 0.14 * bump(z / 0.85) - 0.8 * fall * fall.sqrt(), -8.1 + fall * fall * (0.7 + 0.3 * fall)]
@@ -48,43 +49,43 @@ fn bump(off: f32) -> f32 {
     left * left * left
 }
 
-/// How far along the lips.
+/// Position along the lips.
 pub fn along_lips(z: f32) -> f32 {
     z / 2.9
 }
 
-/// The middle of the hollow of a nostril.
+/// The centre of a nostril.
 pub const NOSTRIL: Vec3 = Vec3::new(9.85, -5.16, 0.52);
 
-/// What covers the skin at a place, each 0..1.
+/// The paint on the skin at a point, each 0..1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paint {
     /// Hairs of the brow.
     pub brow: f32,
-    /// Lashes, and the line that their roots make.
+    /// Lashes, and the line of their roots.
     pub lashes: f32,
     /// The red of the lips.
     pub lips: f32,
     /// Blood under the skin of cheeks, nose and ears.
     pub flush: f32,
-    /// The dark within the nostrils.
+    /// The dark inside of the nostrils.
     pub nostrils: f32,
-    /// The white of the eye, and all within it.
+    /// The eye: its white and everything within it.
     pub eye: f32,
-    /// Of that the iris.
+    /// The iris, as a share of the eye.
     pub iris: f32,
-    /// Of that its dark rim.
+    /// The dark rim of the iris, as a share of it.
     pub rim: f32,
-    /// Of the iris the pupil.
+    /// The pupil, as a share of the iris.
     pub pupil: f32,
-    /// What shines in the eye.
+    /// The highlight in the eye.
     pub glint: f32,
-    /// How much light the lids leave it.
+    /// The light that the lids let through to the eye.
     pub shade: f32,
 }
 
 impl Paint {
-    /// How far apart (cm) looks at what is painted about a place need to be: nearest on the hairs of brows and lashes.
+    /// The sampling distance (cm) that the paint around a point needs: smallest on the hairs of brows and lashes.
     pub fn detail(p: Vec3) -> f32 {
         let z = p.z.abs();
         match () {
@@ -94,7 +95,7 @@ impl Paint {
         }
     }
 
-    /// What covers the built-in bust's skin at `p`.
+    /// The paint on the built-in bust at `p`.
     pub fn at(p: Vec3) -> Self {
         let z = p.z.abs();
         let near = |centre: Vec3, reach: f32| {
@@ -118,7 +119,7 @@ impl Paint {
         }
     }
 
-    /// The colour (linear) of skin so painted, on a head whose hair has such a colour.
+    /// The colour (linear) of `skin` with this paint, on a head with this `hair` colour.
     pub fn over(&self, skin: [f32; 3], hair: [f32; 3]) -> [f32; 3] {
         const LIPS: [f32; 3] = [0.92, 0.66, 0.70];
         const FLUSH: [f32; 3] = [1.0, 0.86, 0.86];

@@ -1,7 +1,7 @@
 //! The hairstyle: how a strand leaves its root, bends, lies on the head, hangs and is cut (method section 4).
 //!
-//! Every strand is styled alone, from its root, the style and the seed: any subset of roots, in any order, gives the
-//! same strands to the bit, as does any number of threads.
+//! Each strand depends only on its root, the style and the seed. Any subset of roots, in any order and on any number of
+//! threads, therefore gives the same strands, bit by bit.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -19,54 +19,53 @@ use crate::{cut, strand_style};
 /// Strands styled by one task.
 const STRANDS_A_TASK: usize = 64;
 
-/// So many strands, first of the farthest-first order of the roots, are guides: whatever number of them is grown.
+/// Number of guides: the first strands in the farthest-first order of the roots, however many strands are grown.
 pub const GUIDES: usize = 256;
 
-/// Everything that decides which hair grows on a head.
+/// The settings that determine the hair on a head.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth<'a> {
-    /// Where it grows.
+    /// Where hair grows.
     pub hairline: &'a Hairline,
-    /// How it is styled.
+    /// The hairstyle.
     pub style: &'a Style,
-    /// Strands of the whole.
+    /// Total number of strands.
     pub strands: usize,
-    /// Most segments of a strand.
+    /// Largest number of segments of a strand.
     pub segments: usize,
     /// Longest segment (cm).
     pub segment_length: f32,
-    /// Seed of all that is random.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
-/// Grows the first `shown` strands of the whole (all of them if it has no more), in the farthest-first order of their
-/// roots: to the bit those of the whole, but only they cost time.
+/// Grows the first `shown` strands (all, if there are no more) in the farthest-first order of their roots. They are the
+/// same, bit by bit, as among all strands, and only they take time.
 ///
-/// They carry what grooms are expected to have: as `id` the number in that order, which does not depend on how many are
-/// shown; `root_uv`; as `group` the region of the style ([`Region::ALL`]) with its name; and the first [`GUIDES`] are
-/// marked as guides.
+/// They have the usual attributes of a groom: `id`, the index in that order, which does not depend on `shown`;
+/// `root_uv`; `group`, the region of the style ([`Region::ALL`]) with its name; and `guide` for the first [`GUIDES`].
 ///
 /// # Errors
-/// If a setting is out of its range, or the hairline leaves nothing of the scalp.
+/// If a setting is out of range, or the hairline leaves none of the scalp.
 pub fn grow(head: &Head, growth: &Growth<'_>, shown: usize) -> Result<Hair, SettingError> {
     let roots = roots::spread_first(head, growth.hairline, growth.strands, shown, growth.seed)?;
     grow_run(head, growth, &roots, 0)
 }
 
-/// The same from roots that are there already, a run of those that [`roots::spread_first`] gives for this hairline, number and
-/// seed, which begins with number `first` of the order. Another style does not move them.
+/// Like [`grow`], from existing roots: a run of those that [`roots::spread_first`] returns for this hairline, number
+/// and seed, starting with index `first` of the order. A change of style does not move roots.
 ///
 /// # Errors
-/// As [`groom()`].
+/// As for [`groom()`].
 pub fn grow_run(head: &Head, growth: &Growth<'_>, roots: &[Root], first: usize) -> Result<Hair, SettingError> {
     grow_run_while(head, growth, roots, first, &|_| true).map(Option::unwrap_or_default)
 }
 
-/// The same for whoever may want it no more: again and again `goes_on` is told, by any thread, how much is grown, 0..1, and asked
-/// whether to go on. None where it was not to.
+/// Like [`grow_run`], but any thread calls `goes_on` regularly with the share that is done, 0..1. If it returns
+/// `false`, the result is `None`.
 ///
 /// # Errors
-/// As [`groom()`].
+/// As for [`groom()`].
 pub fn grow_run_while(
     head: &Head,
     growth: &Growth<'_>,
@@ -93,13 +92,13 @@ pub fn grow_run_while(
     Ok(Some(Hair { strands, attributes }))
 }
 
-/// Styles one strand a root, in the order of the roots: nodes from root to tip (head space, cm).
+/// Styles one strand per root, in the order of the roots: nodes from root to tip (head space, cm).
 ///
-/// A strand of length L is made of the fewest equal segments that are not longer than `segment_length` (cm), so at
-/// most `segments` of them: the style may ask for no length beyond `segments` x `segment_length`.
+/// A strand of length L has the smallest number of equal segments that are not longer than `segment_length` (cm), at
+/// most `segments`. The style must not ask for a length above `segments` x `segment_length`.
 ///
 /// # Errors
-/// If a setting is out of its range, or a length is greater than that.
+/// If a setting is out of range, or a length is above that.
 pub fn groom(
     head: &Head,
     roots: &[Root],

@@ -1,6 +1,7 @@
-//! Hair that grows: roots within a hairline, styles from how hair leaves the scalp to how it is cut, and a bust for it to grow on.
+//! Grows hair: roots within a hairline, a style from the angle at the root to the cut, and a bust to grow it on.
 //!
-//! What grows is a [`Hair`](nabiki::Hair) at rest, which [`nabiki`] moves. An engine that brings hair of its own does without this crate.
+//! The result is a [`Hair`](nabiki::Hair) at rest, which [`nabiki`] moves. An engine with its own hair does not need
+//! this crate.
 //!
 //! # A program
 //!

@@ -1,9 +1,9 @@
-//! Roots: where hair grows out of the scalp; the paper's pores (section 3.1).
+//! Roots: the points where hair grows out of the scalp, called pores in the paper (section 3.1).
 //!
-//! The paper sets them on the head ellipsoid E, which stands for the scalp. A real scalp differs from E by some
-//! millimetres, and a root beside the skin shows; so the roots are set on the skin itself: outside E where the skin
-//! stands outside, inside where it lies inside. E says which part of the skin is scalp. The roots are blue noise, and
-//! in an order whose every beginning is blue noise too: the first 300 of 20,000 are a preview of them.
+//! The paper places roots on the head ellipsoid E in place of the scalp. A real scalp differs from E by some
+//! millimetres, and a root off the skin is visible, so roots are placed on the skin itself. E determines which part of
+//! the skin is scalp. Roots are blue noise, and so is every beginning of their order: the first 300 of 20,000 are a
+//! preview of them.
 
 mod hairline;
 
@@ -18,19 +18,20 @@ pub use hairline::Hairline;
 /// The root of a strand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
-    /// On the skin (head space, cm).
+    /// Position on the skin (head space, cm).
     pub position: Vec3,
     /// Outward normal of the skin there, of unit length.
     pub normal: Vec3,
-    /// Texture coordinates of the skin there, v upward: the mesh's own, else [`Ellipsoid::uv`](nabiki::Ellipsoid::uv) of E.
+    /// Texture coordinates of the skin there, v upward: those of the mesh, or [`Ellipsoid::uv`](nabiki::Ellipsoid::uv)
+    /// of E if it has none.
     pub uv: Vec2,
-    /// How far above the hairline it is, in the unit of that ([`Hairline`]).
+    /// Height above the hairline, in the unit of [`Hairline`].
     pub above_hairline: f32,
 }
 
 /// Candidates for each root asked for: with more the spacing gains little, with fewer it shows.
 const CANDIDATES: usize = 5;
-/// Roots that can be spread at most: their candidates are counted in 32 bits.
+/// Largest number of roots: candidates are counted in 32 bits.
 pub const MOST: usize = 800_000_000;
 const _: () = assert!(MOST <= u32::MAX as usize / CANDIDATES);
 /// Places drawn at most for each candidate kept; a hairline that keeps less leaves no scalp to speak of.
@@ -44,7 +45,7 @@ const LARGE: f32 = 0.1;
 /// So far below the hairline, in its unit, a corner still counts: farther than a small triangle reaches.
 const BELOW: f32 = 0.15;
 
-/// Refuses more roots than can be spread.
+/// Refuses more than [`MOST`] roots.
 ///
 /// # Errors
 /// Names `hair.strands`.
@@ -55,26 +56,26 @@ pub fn check_count(count: usize) -> Result<(), SettingError> {
     Err(SettingError::new("hair.strands", count, format!("must be at most {MOST}: grow less")))
 }
 
-/// Bytes of memory that it takes at least to spread so many roots, however few of them are wanted.
+/// The least memory (bytes) for spreading this many roots, however few of them are wanted.
 pub fn least_bytes(count: usize) -> u64 {
     // The candidates, their places, and the cells that these lie in with number, place and gap.
     let each = size_of::<Root>() + size_of::<Vec3>() + subset::BYTES_A_POINT;
     (count as u64).saturating_mul((CANDIDATES * each) as u64)
 }
 
-/// Spreads `count` roots evenly within `hairline`, in farthest-first order; the same `seed` gives the same roots to the
-/// bit.
+/// Spreads `count` roots evenly within `hairline`, in farthest-first order. The same `seed` gives the same roots, bit
+/// by bit.
 ///
 /// # Errors
-/// If the hairline is out of range, or leaves nothing of the scalp; more than [`MOST`].
+/// If the hairline is out of range or leaves none of the scalp, or for more than [`MOST`] roots.
 pub fn spread(head: &Head, hairline: &Hairline, count: usize, seed: u64) -> Result<Vec<Root>, SettingError> {
     spread_first(head, hairline, count, count, seed)
 }
 
-/// The first `shown` of the roots that [`spread`] gives, to the bit, at less than the cost of all.
+/// The first `shown` of the roots of [`spread`], the same bit by bit, in less time than all.
 ///
 /// # Errors
-/// As there.
+/// As for [`spread`].
 pub fn spread_first(
     head: &Head,
     hairline: &Hairline,
@@ -85,11 +86,10 @@ pub fn spread_first(
     spread_first_while(head, hairline, count, shown, seed, &|| true).map(Option::unwrap_or_default)
 }
 
-/// The same for whoever may want it no more: again and again `goes_on` is asked, by any thread, whether to go on. None where it was
-/// not to.
+/// Like [`spread_first`], but any thread calls `goes_on` regularly. If it returns `false`, the result is `None`.
 ///
 /// # Errors
-/// As there.
+/// As for [`spread`].
 pub fn spread_first_while(
     head: &Head,
     hairline: &Hairline,

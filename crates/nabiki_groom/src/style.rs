@@ -55,7 +55,7 @@ words! {
 }
 
 impl Region {
-    /// All of them; a region's place here is its number as a group of strands.
+    /// All regions. The index of a region here is its group number of strands.
     pub const ALL: [Self; 4] = [Self::Top, Self::Sides, Self::Back, Self::Fringe];
 }
 
@@ -238,7 +238,7 @@ settings! {
 }
 
 impl Curl {
-    /// A turn is made of at least so many segments: those of a circle meet at 45 degrees then.
+    /// Least number of segments in a turn. The segments of a circle then meet at 45 degrees.
     pub const SEGMENTS_A_TURN: f32 = 8.0;
 
     fn winds_forward(&self, at: &Place) -> Result<(), SettingError> {
@@ -257,15 +257,15 @@ impl Curl {
         Some(pitch.hypot(around * round))
     }
 
-    /// The longest segments (cm, in whole thousandths) that draw its tightest turn; none where any will do.
+    /// The longest segments (cm, in whole thousandths) that can follow the tightest turn. `None` if any length can.
     pub fn longest_segment(&self) -> Option<f32> {
         self.tightest_turn().map(|turn| (turn / Self::SEGMENTS_A_TURN * 1000.0).floor() / 1000.0)
     }
 
-    /// Refuses segments (cm) that are too long to draw the tightest turn that chance may make.
+    /// Refuses segments (cm) that are too long for the tightest turn that the random variation may produce.
     ///
     /// # Errors
-    /// Names `hair.segment_length` and the longest that will do.
+    /// Names `hair.segment_length` and the largest valid value.
     pub fn check_segment_length(&self, segment_length: f32) -> Result<(), SettingError> {
         let (Some(turn), Some(longest)) = (self.tightest_turn(), self.longest_segment()) else { return Ok(()) };
         if segment_length <= turn / Self::SEGMENTS_A_TURN {
@@ -303,7 +303,7 @@ impl Ponytail {
     /// Refuses a band that reaches into the head.
     ///
     /// # Errors
-    /// Names its place, and says how far that is from the skin.
+    /// Names its position and its distance from the skin.
     pub fn check_place(&self, head: &Head) -> Result<(), SettingError> {
         let (distance, radius) = (head.distance(self.at), self.radius);
         if distance >= radius {

@@ -1,4 +1,4 @@
-//! What was read as a head: its mesh with the sampled distance.
+//! The bust as a head: its mesh and its sampled distance.
 
 use std::sync::LazyLock;
 
@@ -15,8 +15,8 @@ const ELLIPSOID: Ellipsoid = Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::ne
 /// What `nabiki_bust` wrote.
 const BAKED: &[u8] = include_bytes!("bust.bin");
 
-/// The project's own bust: head, neck and shoulders of a calm adult, eyes open, no hair. The same on every
-/// machine, and on both sides of z = 0, to the bit.
+/// The built-in bust: head, neck and shoulders of an adult with open eyes and no hair. It is the same on every machine,
+/// bit by bit, and symmetric in z.
 pub fn bust() -> Head {
     // Whoever builds scene after scene asks for it again and again.
     static BUST: LazyLock<Head> = LazyLock::new(|| {

@@ -1,4 +1,4 @@
-//! The hairline: a closed curve about the head, above which hair grows.
+//! The hairline: a closed curve around the head. Hair grows above it.
 
 use std::f32::consts::PI;
 
@@ -74,7 +74,7 @@ impl Hairline {
             + width * (slope(i) * (t3 - 2.0 * t2 + t) + slope(i + 1) * (t3 - t2))
     }
 
-    /// How far `p` (head space, cm) lies above the line, in its unit: negative where no hair grows.
+    /// Height of `p` (head space, cm) above the line, in its unit. Negative where no hair grows.
     pub fn above(&self, ellipsoid: &Ellipsoid, p: Vec3) -> f32 {
         let Ellipsoid { center, half_axes } = *ellipsoid;
         let q = (p - center) / half_axes;
