@@ -1,4 +1,4 @@
-//! The six directions along the axes, by which a file's up and facing are named.
+//! The six directions along the axes, for a file's up and facing.
 
 use std::fmt;
 
@@ -27,15 +27,16 @@ words! {
 }
 
 impl Axis {
-    /// All six.
+    /// All six directions.
     pub const ALL: [Self; 6] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY, Self::PlusZ, Self::MinusZ];
 
-    /// Whether it lies across another.
+    /// Whether it is perpendicular to another.
     pub fn is_across(self, other: Self) -> bool {
         self.vector().dot(other.vector()) == 0.0
     }
 
-    /// What a direction across `up` is in the same world tipped over, so that what points along `up` points along `other`.
+    /// The direction that this one (perpendicular to `up`) becomes if the world is rotated so that `up` becomes
+    /// `other`.
     #[must_use]
     pub fn tipped(self, up: Self, other: Self) -> Self {
         if !up.is_across(other) || self.is_across(other) {

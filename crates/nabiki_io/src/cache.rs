@@ -1,5 +1,5 @@
-//! Motion caches, `.nabiki`: every frame of a simulation, exact to the bit, in a file that is written and read one
-//! frame at a time. `docs/cache.md` describes the layout.
+//! Motion caches, `.nabiki`: every frame of a simulation, bit by bit, in a file that is written and read one frame at a
+//! time. `docs/cache.md` describes the layout.
 
 mod attributes;
 mod origin;
@@ -40,35 +40,35 @@ const SUMS_TAG: &[u8; 8] = b"sums    ";
 /// What is said of bytes that have another sum.
 const DAMAGED: &str = "the file is damaged, its checksum does not match; copy it again, or make it again";
 
-/// What is the same in every frame of a cache.
+/// The part of a cache that is the same for all frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Header {
-    /// The scene that made the motion.
+    /// The identity of the scene that made the motion.
     pub scene: SceneId,
-    /// Frames a second at which the motion is meant to be seen.
+    /// Frames per second for playback.
     pub frame_rate: f64,
-    /// Number of frame 0 on the time line of the shot, from which files for other programs go on.
+    /// Number of frame 0 on the timeline of the shot. Exported files count from it.
     pub first_frame: i32,
-    /// Where each strand's points start, and the number of points at the end ([`Strands::starts`]).
+    /// Offsets of the strands' points, and the number of points at the end ([`Strands::starts`]).
     pub starts: Vec<u32>,
-    /// What the groom carries beside its points (widths in cm).
+    /// The attributes of the groom (widths in cm).
     pub attributes: Attributes,
-    /// Where the hair came from; `None` for hair grown here.
+    /// The file that the hair came from; `None` for grown hair.
     pub origin: Option<Origin>,
-    /// Whose strands these are, where they are some of a motion's; `None` where they are all. `scene` is then not that of
-    /// the whole.
+    /// The piece of a motion that this is; `None` for a complete motion. In a piece, `scene` is not the identity of the
+    /// complete motion.
     pub piece: Option<Piece>,
 }
 
 impl Header {
-    /// The header of a scene's hair, grown here until `origin` says otherwise.
+    /// A header for a scene's hair. The hair counts as grown unless you set `origin`.
     pub fn new(scene: SceneId, frame_rate: f64, hair: &Hair) -> Self {
         let starts = hair.strands.starts().to_vec();
         let attributes = hair.attributes.clone();
         Self { scene, frame_rate, first_frame: 0, starts, attributes, origin: None, piece: None }
     }
 
-    /// The same for strands that are a piece of a motion.
+    /// Marks the strands as a piece of a motion.
     pub fn of_piece(self, piece: Piece) -> Self {
         Self { scene: piece.identity(), piece: Some(piece), ..self }
     }
@@ -86,13 +86,13 @@ impl Header {
         POSE_BYTES + 12 * self.point_count() as u64
     }
 
-    /// Strands of this topology, all points at the origin, to read frames into.
+    /// Strands of this topology with all points at the origin, as the buffer for reading frames.
     pub fn strands(&self) -> Strands {
         Strands::from_parts(self.starts.clone(), vec![Vec3::ZERO; self.point_count()])
     }
 }
 
-/// Writes a cache frame by frame. Dropped before [`finish`](Self::finish), it leaves no file.
+/// Writes a cache frame by frame. If it is dropped before [`finish`](Self::finish), no file remains.
 pub struct Writer {
     file: PartFile,
     target: PathBuf,
@@ -116,10 +116,10 @@ struct Places {
 }
 
 impl Writer {
-    /// Starts a cache of so many `frames` that will be called `path`.
+    /// Starts a cache of `frames` frames at `path`.
     ///
     /// # Errors
-    /// No strands or frames, a strand of fewer than two points, a frame rate that is none; what the disk says.
+    /// No strands or frames, a strand with fewer than two points, an invalid frame rate, or an error of the disk.
     pub fn create(path: &Path, header: &Header, frames: u64) -> Result<Self> {
         let named = |e: Error| e.in_file(path);
         let shape = header.strands();
@@ -151,7 +151,7 @@ impl Writer {
         })
     }
 
-    /// Appends one frame: all `points` (head space, cm) and where the head is.
+    /// Appends one frame: all `points` (head space, cm) and the pose of the head.
     pub fn push(&mut self, head: &Pose, points: &[Vec3]) -> Result<()> {
         if points.len() != self.points {
             let what = format!("frame {}: {} points, the cache is of {}", self.frame(), points.len(), self.points);
@@ -162,7 +162,7 @@ impl Writer {
         self.part(points)
     }
 
-    /// Begins a frame whose points come in parts, by [`part`](Self::part): it ends with the last of them.
+    /// Starts a frame whose points are written in parts with [`part`](Self::part). It ends with the last point.
     pub fn begin_frame(&mut self, head: &Pose) -> Result<()> {
         let refuse = |what: String| Err(Error::new(what).in_file(&self.target));
         let frame = self.frame();
@@ -184,7 +184,7 @@ impl Writer {
         Ok(())
     }
 
-    /// The next points of the frame that was begun (head space, cm).
+    /// Writes the next points of the current frame (head space, cm).
     pub fn part(&mut self, points: &[Vec3]) -> Result<()> {
         let Some((head, given)) = self.open.map(|(head, given)| (head, given + points.len())) else {
             return Err(Error::new("points of no frame").in_file(&self.target));
@@ -216,7 +216,7 @@ impl Writer {
         Err(Error::new(what).in_file(&self.target))
     }
 
-    /// Puts the cache under its name, and returns its number of frames.
+    /// Gives the file its name and returns the number of frames.
     pub fn finish(mut self) -> Result<u64> {
         let named = |e: Error| e.in_file(&self.target);
         if let Some((_, given)) = self.open {
@@ -298,14 +298,14 @@ pub struct Reader<R = File> {
 }
 
 impl Reader {
-    /// Opens a cache and checks its header, by its sum and against the file's length.
+    /// Opens a cache, and checks its header against its checksum and the length of the file.
     pub fn open(path: &Path) -> Result<Self> {
         Self::from_source(Bytes::open(path)?, path)
     }
 }
 
 impl<'a> Reader<std::io::Cursor<&'a [u8]>> {
-    /// The same in memory.
+    /// Opens a cache in memory.
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self> {
         Self::from_source(Bytes::from_slice(bytes), Path::new("cache"))
     }
@@ -318,18 +318,18 @@ impl<R: std::io::Read + Seek> Reader<R> {
         Ok(Self { source, path: path.to_owned(), header, bounds, sums, frames, first_frame_at })
     }
 
-    /// The file.
+    /// The path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What is the same in every frame.
+    /// The header.
     pub fn header(&self) -> &Header {
         &self.header
     }
 
-    /// The lowest and the highest corner of the box about the points of all frames, from the head's origin along the
-    /// world's axes (cm). None where a corner is nowhere, as of points that nearly are.
+    /// The corners of the bounding box of all points in all frames, relative to the head's origin and along the world's
+    /// axes (cm). `None` if a corner is not finite.
     pub fn bounds(&self) -> Option<[Vec3; 2]> {
         Some(self.bounds).filter(|[low, high]| low.is_finite() && high.is_finite())
     }
@@ -339,10 +339,10 @@ impl<R: std::io::Read + Seek> Reader<R> {
         self.frames
     }
 
-    /// Reads one frame into `strands`, made by [`Header::strands`], and returns where the head is.
+    /// Reads one frame into `strands`, made by [`Header::strands`], and returns the pose of the head.
     ///
     /// # Errors
-    /// A frame that is not in the cache, or is not as it was written; `strands` of another number of points.
+    /// A frame that is not in the cache or fails its checksum, or `strands` with another number of points.
     pub fn read(&mut self, frame: u64, strands: &mut Strands) -> Result<Pose> {
         let path = self.path.clone();
         self.read_frame(frame, strands).map_err(|e| e.in_file(&path))
@@ -375,7 +375,7 @@ impl<R: std::io::Read + Seek> Reader<R> {
         Ok(pose)
     }
 
-    /// One frame as hair, with the attributes that the cache carries.
+    /// One frame as hair, with the attributes of the cache.
     pub fn hair(&mut self, frame: u64) -> Result<Hair> {
         let mut strands = self.header.strands();
         self.read(frame, &mut strands)?;

@@ -1,9 +1,9 @@
-//! What a file says itself of the space of its coordinates.
+//! The unit and axes that a file declares.
 
 use crate::axis::Axis;
 use crate::unit::Unit;
 
-/// Unit and up axis that a file declares; `None` where it says nothing.
+/// Unit and up axis that a file declares; `None` if it does not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeclaredSpace {
     /// Length unit.

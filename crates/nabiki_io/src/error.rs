@@ -1,25 +1,25 @@
-//! One-line errors that name file, thing, value and way out.
+//! One-line errors with file, subject, value and remedy.
 
 use std::{
     fmt, io,
     path::{Path, PathBuf},
 };
 
-/// What went wrong with a file; its text is one line: `hair.tfx: points: ...`, `gust.toml:12: motion.time_step: ...`.
+/// An error about a file. It displays as one line: `hair.tfx: points: ...`, `gust.toml:12: motion.time_step: ...`.
 #[derive(Debug)]
 pub struct Error {
-    /// The file, once known: parsers that see only bytes leave it to their callers.
+    /// The file, if known. Parsers of bytes leave it to their callers.
     pub file: Option<PathBuf>,
     /// Line in a text file, counted from 1.
     pub line: Option<usize>,
-    /// Thing, value and way out.
+    /// Subject, value and remedy.
     pub what: String,
     /// Whether `what` begins with the key of a setting, whose table a caller may know.
     of_setting: bool,
     source: Option<io::Error>,
 }
 
-/// What this crate's functions return.
+/// The result type of this crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 impl Error {
@@ -28,26 +28,26 @@ impl Error {
         Self { of_setting: true, ..Self::new(what) }
     }
 
-    /// A refusal of content.
+    /// An error about content.
     pub fn new(what: impl Into<String>) -> Self {
         // Messages of other crates may span lines; ours never do.
         let what = what.into().split_whitespace().collect::<Vec<_>>().join(" ");
         Self { file: None, line: None, what, of_setting: false, source: None }
     }
 
-    /// Names the file, unless a deeper caller has done so.
+    /// Adds the file, unless it is set.
     pub fn in_file(mut self, file: &Path) -> Self {
         self.file.get_or_insert_with(|| file.to_owned());
         self
     }
 
-    /// Says first what it is part of: `joint Head: ...`.
+    /// Prepends what it is part of: `joint Head: ...`.
     pub fn under(mut self, thing: impl fmt::Display) -> Self {
         self.what = format!("{thing}: {}", self.what);
         self
     }
 
-    /// Calls the setting that is refused, or wanted, by its whole name: `head.motion.up` below `head.motion`.
+    /// Prepends a table to the name of the setting: `head.motion.up` below `head.motion`.
     pub fn below(self, table: &str) -> Self {
         if !self.of_setting {
             return self;
@@ -55,7 +55,7 @@ impl Error {
         Self { what: format!("{table}.{}", self.what), of_setting: false, ..self }
     }
 
-    /// What the system said, where it was the system that refused the file and not we its content.
+    /// The kind of system error, if the system refused the file.
     pub fn system(&self) -> Option<io::ErrorKind> {
         self.source.as_ref().map(io::Error::kind)
     }
@@ -65,7 +65,7 @@ impl Error {
         Self { source: Some(kind.into()), ..self }
     }
 
-    /// Names the line (from 1).
+    /// Sets the line (from 1).
     pub fn at_line(mut self, line: Option<usize>) -> Self {
         self.line = line;
         self

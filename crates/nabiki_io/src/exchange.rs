@@ -1,5 +1,4 @@
-//! USD layers and Alembic archives, which their own crates read and write: hair, heads, motion, and what the files say
-//! of unit and axes.
+//! USD layers and Alembic archives: hair, heads, motion, units and axes. Separate crates read and write these formats.
 
 use std::path::{Path, PathBuf};
 
@@ -21,12 +20,12 @@ use crate::unit::Unit;
 
 pub use crate::declared::DeclaredSpace;
 
-/// Whether a file's ending is that of a USD layer.
+/// Whether the file name ends like a USD layer.
 pub fn is_usd(path: &Path) -> bool {
     matches!(extension(path).as_str(), "usd" | "usda" | "usdc")
 }
 
-/// Whether a file's ending is that of an Alembic archive.
+/// Whether the file name ends like an Alembic archive.
 pub fn is_alembic(path: &Path) -> bool {
     extension(path) == "abc"
 }
@@ -81,11 +80,11 @@ fn named(path: &Path, problem: Problem) -> Error {
     Error::new(problem.to_string()).in_file(path)
 }
 
-/// What the file says, or its format for it: glTF is in metres, +y up; a USD layer names both; Alembic is +y up by
-/// agreement and names no unit; other formats say nothing.
+/// The space that the file or its format declares. glTF is in metres, +y up. A USD layer declares both. Alembic is +y
+/// up by convention and has no unit. Other formats declare nothing.
 ///
 /// # Errors
-/// A layer that cannot be read; a unit or an axis that is none.
+/// A layer that cannot be read, or an invalid unit or axis.
 pub fn declared_space(path: &Path) -> Result<DeclaredSpace> {
     match extension(path).as_str() {
         "glb" | "gltf" => Ok(DeclaredSpace::GLTF),
@@ -95,19 +94,19 @@ pub fn declared_space(path: &Path) -> Result<DeclaredSpace> {
     }
 }
 
-/// Reads the hair of frame `frame` (the last one after those there are), in the file's own unit and axes.
-/// `segments`: walks every curve into as many; `None` keeps polylines as they are.
+/// Reads the hair of frame `frame` (after the end, the last frame), in the file's unit and axes. `segments` divides
+/// every curve into that many; `None` keeps polylines unchanged.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid.
 pub fn hair(path: &Path, frame: usize, segments: Option<usize>) -> Result<Hair> {
     Opened::new(path)?.ask(|r| r.hair(frame, segments))
 }
 
-/// Number of frames of the curves in a layer or archive; 1 for hair that stands still, and for any other file.
+/// Number of frames of the curves in a layer or archive; 1 for hair that does not move and for other formats.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid.
 pub fn frames(path: &Path) -> Result<usize> {
     if !(is_usd(path) || is_alembic(path)) {
         return Ok(1);
@@ -137,7 +136,7 @@ pub(crate) fn mesh(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)
 /// The paths of the meshes of a layer or archive, each with the number of its faces.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid.
 pub(crate) fn mesh_sizes(path: &Path) -> Result<Vec<(String, usize)>> {
     let prims = Opened::new(path)?.ask(|r| r.prims())?.into_iter();
     let sizes = prims.filter_map(|prim| match prim.kind {
@@ -150,7 +149,7 @@ pub(crate) fn mesh_sizes(path: &Path) -> Result<Vec<(String, usize)>> {
 /// Whether the object, prim or joint `node` carries one of the meshes that a scene reads.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid.
 pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> {
     let mut file = Opened::new(path)?;
     let all: Vec<String> = file.ask(|r| r.prims())?.into_iter().map(|prim| prim.path).collect();
@@ -163,11 +162,11 @@ pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> 
     Ok(meshes.iter().any(|mesh| parts::is_kept(groups, mesh) && parts::is_part(node, mesh)))
 }
 
-/// What moves a mesh that a scene reads: the joint of the skeleton that it is bound to, or the nearest transform above it; none in
-/// other files, and where nothing moves.
+/// What moves a mesh that a scene reads: the skeleton joint that it is bound to, or the nearest moving transform above
+/// it. `None` in other formats, and if nothing moves.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid.
 pub fn mover_of_mesh(path: &Path, groups: &[String]) -> Result<Option<String>> {
     if !(is_usd(path) || is_alembic(path)) {
         return Ok(None);
@@ -215,7 +214,7 @@ fn left_out_of(motion: &[Placed], bound: Option<&Placed>) -> Option<&'static str
     }
 }
 
-/// Moving hair of a layer or archive, read one frame after another.
+/// Moving hair of a layer or archive, read frame by frame.
 pub struct MovingHair {
     file: Opened,
     segments: Option<usize>,
@@ -225,10 +224,10 @@ pub struct MovingHair {
 }
 
 impl MovingHair {
-    /// Opens the file at `path` and reads its first frame. `segments`: as in [`hair`].
+    /// Opens the file at `path` and reads its first frame. `segments` is as in [`hair`].
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn open(path: &Path, segments: Option<usize>) -> Result<Self> {
         Self::of(Opened::new(path)?, segments)
     }
@@ -240,37 +239,38 @@ impl MovingHair {
         Ok(Self { file, segments, contents, declared, hair })
     }
 
-    /// Number of frames; 1 for hair that stands still.
+    /// Number of frames; 1 for hair that does not move.
     pub fn frames(&self) -> usize {
         self.contents.times.len().max(1)
     }
 
-    /// Frames a second.
+    /// Frames per second.
     pub fn frame_rate(&self) -> f64 {
         self.contents.frame_rate
     }
 
-    /// The first frame with its attributes, in the space of the file's moving transform, its unit and axes.
+    /// The first frame with its attributes, in the space below the file's moving transform, in the file's unit and
+    /// axes.
     pub fn hair(&self) -> &Hair {
         &self.hair
     }
 
-    /// Unit and up axis, as far as the file says them.
+    /// Unit and up axis, as far as the file declares them.
     pub fn declared_space(&self) -> DeclaredSpace {
         self.declared
     }
 
-    /// The points of a frame, and the transform above them. Nothing of other frames is kept.
+    /// The points of a frame and the transform above them. Other frames are not kept in memory.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn frame(&mut self, frame: usize) -> Result<(Strands, DAffine3)> {
         let segments = self.segments;
         let InPlace { hair, world_from_hair } = self.file.ask(|r| r.hair_in_place(frame, segments, false))?;
         Ok((hair.strands, world_from_hair))
     }
 
-    /// What is told to a file that takes these frames as they are: same numbers, frame rate, unit and axes. `hair`: a
+    /// Export settings for writing these frames unchanged: same frame numbers, frame rate, unit and axes. `hair` is a
     /// copy of [`hair`](Self::hair), so that frames can be read while the file is written.
     pub fn export<'h>(&self, hair: &'h Hair) -> Export<'h> {
         let mut export = Export::new(hair, self.contents.frame_rate);
@@ -282,8 +282,8 @@ impl MovingHair {
     }
 }
 
-/// What is told to a file of moving hair: imported hair goes back into its own file's space, at its `placement`, hair
-/// grown here is in centimetres, y up.
+/// Export settings for moving hair. Imported hair goes back to its file's space, at its `placement`. Grown hair is in
+/// centimetres, y up.
 pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>) -> Export<'a> {
     let mut export = Export::new(hair, frame_rate);
     export.rest = true;
@@ -296,8 +296,8 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
     export
 }
 
-/// Samples for a layer over `groom`: in the space below the transforms above its curves, which these will place, and control points
-/// of curves that run as its own do. Curves that are bound to a skeleton are placed by the layer instead.
+/// Changes `export` to write samples for a layer over `groom`: in the space below the transforms above its curves, with
+/// control points for its basis. For curves bound to a skeleton, the layer sets the position.
 ///
 /// The transforms are those of the first frame, in which the hair was read.
 pub fn under_groom(export: &mut Export<'_>, groom: &CurvePrim) {
@@ -308,8 +308,8 @@ pub fn under_groom(export: &mut Export<'_>, groom: &CurvePrim) {
     export.course = groom.course;
 }
 
-/// What samples over a groom cannot hold, as phrases. `head_moves`: whether the head of the motion does. A groom that is bound to a
-/// skeleton is taken off it, and goes with the head all the same.
+/// Phrases about what samples over a groom cannot express. `head_moves` is whether the head of the motion moves. A
+/// groom that is bound to a skeleton is detached from it, and moves with the head nevertheless.
 pub fn layer_losses(groom: &CurvePrim, head_moves: bool) -> Vec<String> {
     let head_moves = head_moves && !groom.bound;
     let moves =
@@ -317,10 +317,11 @@ pub fn layer_losses(groom: &CurvePrim, head_moves: bool) -> Vec<String> {
     moves.into_iter().map(str::to_owned).collect()
 }
 
-/// Refuses to lay a layer over a groom of `in_file` points (`None` for one grown here) whose import kept `used`.
+/// Refuses a layer over a groom with `in_file` points (`None` for grown hair) if the import kept another number,
+/// `used`.
 ///
 /// # Errors
-/// One line that says how to import it whole.
+/// One line that explains how to import all points.
 pub fn check_layer(in_file: Option<u64>, used: usize) -> Result<()> {
     let refuse = |why: String| Err(Error::new(format!("a layer would not fit the groom: {why}")));
     match in_file {
@@ -333,7 +334,7 @@ pub fn check_layer(in_file: Option<u64>, used: usize) -> Result<()> {
     }
 }
 
-/// Bytes that a file of so many frames takes at least. `layer`: whether it is to hold samples alone.
+/// The least size (bytes) of a file with this many frames. `layer` is whether it has only samples.
 pub fn least_bytes(path: &Path, export: &Export<'_>, frames: u64, layer: bool) -> u64 {
     let points = export.hair.strands.points().len() as u64;
     // A point of text is as long as it is at rest, a velocity at least a row of noughts.
@@ -346,11 +347,11 @@ pub fn least_bytes(path: &Path, export: &Export<'_>, frames: u64, layer: bool) -
     frames.saturating_mul(point + velocity).saturating_add(rest)
 }
 
-/// Begins a file that takes moving hair frame by frame: .usda, .usdc or .abc. `layer`: the prim path of a groom over
-/// which samples alone are to be laid.
+/// Starts a file for moving hair, frame by frame: .usda, .usdc or .abc. `layer` is the prim path of a groom, for a
+/// layer with only samples.
 ///
 /// # Errors
-/// Another ending; a layer of Alembic, which has none; what the disk says.
+/// Another ending, a layer for Alembic (which has none), or an error of the disk.
 pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<Box<dyn FrameSink + 'a>> {
     let named = |e: std::io::Error| Error::from(e).in_file(path);
     match (is_usd(path), is_alembic(path), layer) {
@@ -364,7 +365,7 @@ pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<
     }
 }
 
-/// What is told to a file of hair that stands still, in the unit and axes it has.
+/// Export settings for hair that does not move, in its unit and axes.
 pub fn still(hair: &Hair, declared: DeclaredSpace) -> Export<'_> {
     let mut export = Export::new(hair, 24.0);
     export.meters_per_unit = meters_per_unit(declared);
@@ -372,18 +373,18 @@ pub fn still(hair: &Hair, declared: DeclaredSpace) -> Export<'_> {
     export
 }
 
-/// Writes hair that stands still, in the unit and axes it has.
+/// Writes hair that does not move, in its unit and axes.
 ///
 /// # Errors
-/// What the disk says.
+/// Errors of the disk.
 pub fn write(path: &Path, hair: &Hair, declared: DeclaredSpace) -> Result<()> {
     write_still(path, still(hair, declared), &DAffine3::IDENTITY)
 }
 
-/// Writes hair that stands still, as `export` says, below a head that is at `world_from_head` (cm).
+/// Writes hair that does not move, with these export settings, below a head at `world_from_head` (cm).
 ///
 /// # Errors
-/// What the disk says.
+/// Errors of the disk.
 pub fn write_still(path: &Path, export: Export<'_>, world_from_head: &DAffine3) -> Result<()> {
     let hair = export.hair;
     let mut sink = sink(path, export, None)?;
@@ -392,7 +393,7 @@ pub fn write_still(path: &Path, export: Export<'_>, world_from_head: &DAffine3) 
     sink.finish().map_err(named)
 }
 
-/// What the layer or archive `path` cannot hold of `hair`, a phrase each.
+/// Phrases about the data of `hair` that the layer or archive `path` cannot store.
 pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
     let at = &hair.attributes;
     let groups = at.group.as_deref().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Where a groom's curves are in its file, for layers to be laid over them.
+//! The positions of a groom's curves in its file, for layers over them.
 
 use std::path::Path;
 
@@ -10,33 +10,33 @@ use crate::error::{Error, Result};
 /// Curves of a layer or archive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurvePrim {
-    /// Where they stand in it.
+    /// Their path in the file.
     pub path: String,
-    /// Their control points.
+    /// Number of their control points.
     pub points: u64,
-    /// How the curves run between these.
+    /// Their basis.
     pub course: Course,
-    /// Takes them to the file's world at the first frame.
+    /// Transform to the file's world at the first frame.
     pub world_from_curves: DAffine3,
     /// Whether a skeleton moves them.
     pub bound: bool,
 }
 
-/// The file that a groom came from, and where its curves are in it.
+/// The file that a groom came from, and its curves in that file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroomCurves {
-    /// The file, as it was named.
+    /// The file, as it was given.
     pub file: String,
-    /// Its curves, in their order; none in a file of hair alone.
+    /// Its curves, in order. Empty for formats with only hair.
     pub curves: Vec<CurvePrim>,
 }
 
 impl GroomCurves {
-    /// The curves that a layer over the prim `path` is about.
+    /// The curves for a layer over the prim `path`.
     ///
     /// # Errors
-    /// The prim is not the one that holds the groom's curves: one line with the paths that do; a transform above it that
-    /// flattens space.
+    /// If the prim does not have the groom's curves (one line with the valid paths), or a transform above it flattens
+    /// space.
     pub fn under_layer(&self, path: &str) -> Result<&CurvePrim> {
         let refuse =
             |why: String| Err(Error::new(format!("--export-layer {path}: {why}")).in_file(Path::new(&self.file)));

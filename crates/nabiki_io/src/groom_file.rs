@@ -1,4 +1,4 @@
-//! A hair file that is open: what it says of itself and its hair, from one opening.
+//! An open hair file, for several requests.
 
 use std::path::{Path, PathBuf};
 
@@ -26,9 +26,9 @@ pub struct GroomFile {
 }
 
 enum Kind {
-    /// Of hair alone, read when it is asked for.
+    /// A format with only hair, read on request.
     Plain(Format),
-    /// A layer or archive, which says more.
+    /// A layer or archive, which has more data.
     Exchange(Opened),
 }
 
@@ -36,7 +36,7 @@ impl GroomFile {
     /// Opens the file at `path`.
     ///
     /// # Errors
-    /// A name that is none of a hair file; a layer or archive that cannot be read.
+    /// If the name is not that of a hair file, or a layer or archive cannot be read.
     pub fn open(path: &Path) -> Result<Self> {
         let kind = match Format::of(path)? {
             Format::Usd | Format::Alembic => Kind::Exchange(Opened::new(path)?),
@@ -45,10 +45,11 @@ impl GroomFile {
         Ok(Self { path: path.to_owned(), kind, groups: Vec::new() })
     }
 
-    /// Keeps the curves that `groups` name, or what these stand below, by name or whole path; all, if there are none.
+    /// Keeps only the curves named in `groups`, or the curves below these objects, by name or full path. Without
+    /// `groups`, keeps all.
     ///
     /// # Errors
-    /// A name that none of the file's curves has; a file of hair alone, which has none.
+    /// If no curves have a name, or the format has only hair and no names.
     pub fn keep(mut self, groups: &[String]) -> Result<Self> {
         match &mut self.kind {
             _ if groups.is_empty() => return Ok(self),
@@ -69,10 +70,10 @@ impl GroomFile {
         Ok(Self { groups: groups.to_vec(), ..self })
     }
 
-    /// What the file says of its space.
+    /// The space that the file declares.
     ///
     /// # Errors
-    /// A unit or an axis that is none.
+    /// An invalid unit or axis.
     pub fn declared_space(&mut self) -> Result<DeclaredSpace> {
         match &mut self.kind {
             Kind::Plain(_) => Ok(DeclaredSpace::default()),
@@ -80,10 +81,10 @@ impl GroomFile {
         }
     }
 
-    /// Number of frames; 1 for hair that stands still.
+    /// Number of frames; 1 for hair that does not move.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn frames(&mut self) -> Result<usize> {
         match &mut self.kind {
             Kind::Plain(_) => Ok(1),
@@ -91,10 +92,10 @@ impl GroomFile {
         }
     }
 
-    /// Frames a second of the shot that the file is of; 24 where it does not say so.
+    /// Frames per second of the file's shot; 24 if the file does not say.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn frame_rate(&mut self) -> Result<f64> {
         match &mut self.kind {
             Kind::Plain(_) => Ok(24.0),
@@ -102,10 +103,10 @@ impl GroomFile {
         }
     }
 
-    /// When the shot begins that the file is of (s), where it says so.
+    /// Start of the file's shot (s), if the file says.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn start(&mut self) -> Result<Option<f64>> {
         match &mut self.kind {
             Kind::Plain(_) => Ok(None),
@@ -113,21 +114,20 @@ impl GroomFile {
         }
     }
 
-    /// Reads the hair of frame `frame` (the last one after those there are), in the file's own unit and axes.
-    /// `segments`: walks every curve of a layer or archive into as many, and cuts other strands anew; `None` keeps
-    /// polylines as they are.
+    /// Reads the hair of frame `frame` (after the end, the last frame), in the file's unit and axes. `segments` divides
+    /// every curve of a layer or archive into that many and resamples other strands; `None` keeps polylines unchanged.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn hair(&mut self, frame: usize, segments: Option<usize>) -> Result<Hair> {
         let placed = self.hair_in_place(frame, segments)?;
         placed.in_world().map_err(|problem| Error::new(problem.to_string()).in_file(&self.path))
     }
 
-    /// The same below the transform that the file has above its curves.
+    /// Like [`hair`](Self::hair), with the transform above the curves kept separate.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn hair_in_place(&mut self, frame: usize, segments: Option<usize>) -> Result<InPlace> {
         let path = self.path.as_path();
         let named = |e: Error| e.in_file(path);
@@ -145,10 +145,10 @@ impl GroomFile {
         Ok(in_world(hair.resampled(segments + 1)))
     }
 
-    /// Where the curves are, for a layer to be laid over them. `file`: the name that is remembered.
+    /// The curves in the file, for a layer over them. `file` is the name to store.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is invalid.
     pub fn curves(&mut self, file: &Path) -> Result<GroomCurves> {
         let prims = match &mut self.kind {
             Kind::Plain(_) => Vec::new(),
@@ -165,10 +165,10 @@ impl GroomFile {
         Ok(GroomCurves { file: file.display().to_string(), curves: curves.collect() })
     }
 
-    /// Its frames, one after another. `segments`: as for [`hair`](Self::hair).
+    /// Opens its frames for reading in order. `segments` is as for [`hair`](Self::hair).
     ///
     /// # Errors
-    /// A file of hair alone, which does not move; what is wrong with the file.
+    /// If the format has only hair that does not move, or the file is invalid.
     pub fn moving(self, segments: Option<usize>) -> Result<MovingHair> {
         match self.kind {
             Kind::Plain(_) => Err(Error::new("holds no moving hair").in_file(&self.path)),

@@ -1,4 +1,4 @@
-//! Hair files of any format, told apart by their name's ending.
+//! Hair files of any format. The ending of the name decides.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use crate::{
 
 pub use crate::hair_format::Format;
 
-/// What an import gave, before and after cleaning.
+/// The results of an import, before and after cleaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct ImportReport {
@@ -26,24 +26,25 @@ pub struct ImportReport {
     pub strands_in_file: usize,
     /// Points in the file.
     pub points_in_file: usize,
-    /// Points joined and strands dropped because nothing was left of them.
+    /// Points that were joined, and strands that were dropped because nothing was left of them.
     pub degenerate: Degenerate,
     /// Strands dropped because they are shorter than [`Cleaning::drop_shorter_than`].
     pub dropped_short: usize,
-    /// Strands left that the file has tip first, and that were turned round.
+    /// Remaining strands that the file stores tip first and that were reversed.
     pub tip_first: usize,
-    /// Strands left whose file holds their tips as well as their roots. The motion holds roots only: their tips swing.
+    /// Remaining strands whose tips are fixed in the file as well as their roots. The motion fixes only roots: these
+    /// tips swing.
     pub held_at_both_ends: usize,
 }
 
 impl ImportReport {
-    /// That strands were turned round, in a line for the user; `None` where none was.
+    /// A line for the user about reversed strands, if there are any.
     pub fn turned(&self) -> Option<String> {
         let count = self.tip_first;
         (count > 0).then(|| format!("reversed {count} strands that run from tip to root in the file"))
     }
 
-    /// What of the file the motion does not obey, in a line for the user; `None` where there is nothing.
+    /// A line for the user about data of the file that the motion ignores, if there is any.
     pub fn warning(&self) -> Option<String> {
         let count = self.held_at_both_ends;
         (count > 0).then(|| format!("{count} strands are held at both ends in the file; here their tips swing freely"))
@@ -57,11 +58,11 @@ pub(crate) fn held_at_both_ends(hair: &Hair) -> usize {
     ranges.filter(|range| inverse_mass[range.start] == 0.0 && inverse_mass[range.end - 1] == 0.0).count()
 }
 
-/// What of imported hair is not worth moving.
+/// Which parts of imported hair are removed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cleaning {
-    /// Neighbouring points of a strand this close are joined (cm, default 0.001; 0 joins those alone that lie in one place, between which a
-    /// strand has no direction to move in).
+    /// Adjacent points of a strand at most this far apart are joined (cm, default 0.001). 0 joins only points at the
+    /// same position, between which a strand has no direction.
     pub join_within: f32,
     /// Strands shorter than this are dropped (cm, default 0: none).
     pub drop_shorter_than: f32,
@@ -81,12 +82,12 @@ impl Cleaning {
     }
 }
 
-/// Reads a file as it is: its own unit and axes, every strand.
+/// Reads a file unchanged: all strands, in its unit and axes.
 pub fn read(path: &Path) -> Result<Hair> {
     GroomFile::open(path)?.hair(0, None)
 }
 
-/// Reads a file into head space, without its degenerate parts, which are counted.
+/// Reads a file into head space. Degenerate parts are removed and counted.
 pub fn import(path: &Path, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
     let named = |e: Error| e.in_file(path);
     placement.check("hair").map_err(|e| Error::from(e).in_file(path))?;
@@ -97,7 +98,7 @@ pub fn import(path: &Path, placement: &Placement, cleaning: &Cleaning) -> Result
 /// Coordinates of hair beyond this are a wrong unit: ten thousand kilometres (cm).
 const FARTHEST: f32 = 1e9;
 
-/// The same for hair already read, by this crate or another.
+/// Like [`import`], for hair that was read by this crate or another.
 pub fn place_and_clean(read: InPlace, placement: &Placement, cleaning: &Cleaning) -> Result<(Hair, ImportReport)> {
     let strands = &read.hair.strands;
     let (strands_in_file, points_in_file) = (strands.len(), strands.points().len());
@@ -133,7 +134,7 @@ pub fn place_and_clean(read: InPlace, placement: &Placement, cleaning: &Cleaning
 
 pub(crate) use nabiki::strands::length;
 
-/// What the format of `path` cannot hold of `hair`, a phrase each.
+/// Phrases about the data of `hair` that the format of `path` cannot store.
 pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     match Format::of(path)? {
         Format::Hair => Ok(hair_file::losses(hair)),
@@ -145,10 +146,10 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     }
 }
 
-/// Bytes that `hair` takes at least as the format of `path`.
+/// The least size (bytes) of `hair` in the format of `path`.
 ///
 /// # Errors
-/// Another ending.
+/// An unknown ending.
 pub fn least_bytes(path: &Path, hair: &Hair) -> Result<u64> {
     let a = &hair.attributes;
     let points = hair.strands.points().len() as u64;
@@ -171,7 +172,8 @@ pub fn least_bytes(path: &Path, hair: &Hair) -> Result<u64> {
     Ok(4 * points * arrays)
 }
 
-/// Writes `hair` in the unit and axes it has, and says what the format could not hold. The file appears when whole.
+/// Writes `hair` in its unit and axes, and returns phrases about the data that the format cannot store. The file
+/// appears when it is complete.
 pub fn write(path: &Path, hair: &Hair) -> Result<Vec<String>> {
     hair.check_lengths().map_err(|e| Error::new(e.to_string()).in_file(path))?;
     let lost = losses(path, hair)?;

@@ -24,7 +24,7 @@ const TRANSPARENCY: u32 = 8;
 const COLORS: u32 = 16;
 const HEADER_BYTES: u64 = 128;
 
-/// Reads a .hair file held in memory, in its own unit and axes.
+/// Reads a .hair file from memory, in its unit and axes.
 pub fn from_bytes(bytes: &[u8]) -> Result<Hair> {
     from_source(&mut Bytes::from_slice(bytes))
 }
@@ -104,7 +104,7 @@ fn starts<R: Read + Seek>(
     }
 }
 
-/// What a .hair file cannot hold of `hair`, a phrase each.
+/// Phrases about the data of `hair` that a .hair file cannot store.
 pub fn losses(hair: &Hair) -> Vec<String> {
     let a = &hair.attributes;
     let mut lost = Vec::new();
@@ -125,8 +125,8 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     lost
 }
 
-/// Writes the strands, widths, colours and transparencies of `hair`, in the unit and axes it has.
-/// `comment`: its first 88 bytes go into the header.
+/// Writes the strands, widths, colours and transparencies of `hair`, in its unit and axes. The first 88 bytes of
+/// `comment` go into the header.
 pub fn to_writer(hair: &Hair, comment: &str, out: &mut dyn Write) -> Result<()> {
     let (strands, a) = (&hair.strands, &hair.attributes);
     let strand_count = u32::try_from(strands.len()).map_err(|_| Error::new("more than 2^32 - 1 strands"))?;

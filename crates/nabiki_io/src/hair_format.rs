@@ -1,4 +1,4 @@
-//! The formats of hair, by the endings of their names.
+//! The formats of hair, by their file name endings.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::error::{Error, Result};
 use crate::kind::{extension, way_out};
 
-/// The formats of still hair read here.
+/// The formats of hair that does not move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Format {
     /// Cem Yuksel's .hair.
@@ -30,7 +30,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's name stands for.
+    /// The format of a file, from its name.
     pub fn of(path: &Path) -> Result<Self> {
         match extension(path).as_str() {
             "hair" => Ok(Self::Hair),

@@ -1,4 +1,4 @@
-//! A short name for all that decides how a scene's hair moves.
+//! A hash of everything that determines how a scene's hair moves.
 
 use std::{fmt, ops::Range};
 
@@ -9,12 +9,12 @@ use twox_hash::XxHash3_128;
 
 use crate::error::{Error, Result};
 
-/// 128 bits (XXH3) of everything that decides how a scene's hair moves.
+/// A 128-bit hash (XXH3) of everything that determines how a scene's hair moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SceneId(pub u128);
 
 impl SceneId {
-    /// Of settings and the strands that they move.
+    /// The identity of settings with the strands that they move.
     pub fn of(settings: Self, strands: StrandSum) -> Self {
         let mut digest = Digest::new();
         digest.bytes("settings", &settings.0.to_le_bytes());
@@ -23,16 +23,17 @@ impl SceneId {
     }
 }
 
-/// What strands at rest add to an identity: the sum of a number of each, so that those of pieces, added, are that of the
-/// whole.
+/// The contribution of strands at rest to an identity: a sum over strands. The sum of the pieces is therefore that of
+/// the complete hair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StrandSum(pub u128);
 
 impl StrandSum {
-    /// Of strands that are those `places` of a whole. `ids`: their lasting numbers, where these decide how they move.
+    /// The contribution of strands with these `places` in the complete hair. `ids` are their persistent numbers, if
+    /// these influence how they move.
     ///
     /// # Panics
-    /// If there are not as many places, or ids, as strands.
+    /// If the number of places or ids is not the number of strands.
     pub fn of(strands: &Strands, places: Range<usize>, ids: Option<&[u32]>) -> Self {
         assert_eq!(places.len(), strands.len(), "a place for each strand");
         let mut bytes = Vec::new();
@@ -46,7 +47,7 @@ impl StrandSum {
         Self(sum.fold(0, u128::wrapping_add))
     }
 
-    /// That of both.
+    /// The sum of both.
     #[must_use]
     pub fn and(self, further: Self) -> Self {
         Self(self.0.wrapping_add(further.0))
@@ -65,7 +66,7 @@ impl Serialize for SceneId {
     }
 }
 
-/// Collects what an identity is made of, each part under its name.
+/// Collects the parts of an identity, each with a name.
 pub struct Digest(XxHash3_128);
 
 impl Default for Digest {
@@ -75,7 +76,8 @@ impl Default for Digest {
 }
 
 impl Digest {
-    /// Of nothing yet but the version of the method: the same settings may move otherwise in another.
+    /// An identity with only the version of the method, because the same settings may move differently in another
+    /// version.
     pub fn new() -> Self {
         Self::of_method(nabiki::METHOD_VERSION)
     }
@@ -86,7 +88,7 @@ impl Digest {
         digest
     }
 
-    /// Settings with their defaults filled in: it is their values that count, not how a scene spells them.
+    /// Adds settings with their defaults filled in. Only the values count, not the spelling in a scene.
     ///
     /// # Errors
     /// Settings that TOML cannot hold.
@@ -97,13 +99,13 @@ impl Digest {
         Ok(())
     }
 
-    /// Any bytes, a file's for instance.
+    /// Adds bytes, such as those of a file.
     pub fn bytes(&mut self, name: &str, bytes: &[u8]) {
         self.part(b'n', name.as_bytes());
         self.part(b'b', bytes);
     }
 
-    /// The identity of all that was collected.
+    /// The identity of everything added.
     pub fn finish(&self) -> SceneId {
         SceneId(self.0.finish_128())
     }

@@ -1,4 +1,4 @@
-//! What is in a file, for a person to read or, through serde, for a program.
+//! Summaries of files, for display or, through serde, for programs.
 
 mod cache;
 mod exchange;
@@ -26,13 +26,13 @@ use crate::{
     motion, obj_text,
 };
 
-/// What a file turned out to be.
+/// The summary of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Info {
     /// Strands at rest.
     Hair(HairInfo),
-    /// A head, or anything made of triangles.
+    /// A head or another mesh.
     Mesh(MeshInfo),
     /// Moving strands.
     Cache(CacheInfo),
@@ -54,11 +54,11 @@ impl fmt::Display for Info {
     }
 }
 
-/// Looks into a file, told by its name's ending: .hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc,
-/// .abc, .bvh, .csv, .amc, .asf, .tof or .nabiki. (Scenes, .toml, are for `nabiki_scene`.)
+/// Summarises a file. The ending of the name decides: .hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda,
+/// .usdc, .abc, .bvh, .csv, .amc, .asf, .tof or .nabiki. (`nabiki_scene` handles scenes, .toml.)
 ///
 /// # Errors
-/// Another ending; what is wrong with the file, in one line.
+/// An unknown ending, or an invalid file, in one line.
 pub fn info(path: &Path) -> Result<Info> {
     match extension(path).as_str() {
         "hair" | "tfx" | "tfxbone" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),

@@ -1,4 +1,4 @@
-//! Files that are read: regular ones, and no more of them than is stated.
+//! Reads regular files up to a size limit.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -6,17 +6,17 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 
-/// Bytes that a text of numbers may have: meshes, motion, strands as lines.
+/// Size limit of text files with numbers: meshes, motion, strands as lines (bytes).
 pub const MOST_TEXT_BYTES: u64 = 1 << 30;
 
-/// Bytes that a scene may have: of a text of nothing but brackets and commas a hundred times as many are made.
+/// Size limit of a scene (bytes). A text of only brackets and commas takes 100 times as much memory.
 pub const MOST_SCENE_BYTES: u64 = 1 << 20;
 
-/// Bytes of a binary file that is read into memory whole; as much as a .glb can say that it has.
+/// Size limit of a binary file that is read into memory (bytes): the largest size that a .glb can declare.
 pub const MOST_BINARY_BYTES: u64 = 1 << 32;
 
-/// Opens a regular file. A folder, a device and a pipe, which may never end or never begin, are refused, and so is what Git LFS
-/// leaves in the place of a file that it has not fetched.
+/// Opens a regular file. It refuses folders, devices and pipes (which may block or never end), and the placeholder that
+/// Git LFS leaves for a file that was not fetched.
 ///
 /// # Errors
 /// One line that names the file.
@@ -54,10 +54,10 @@ fn is_lfs_pointer(file: &mut File) -> std::io::Result<bool> {
     Ok(BEGINNINGS.iter().any(|beginning| first.starts_with(beginning)))
 }
 
-/// All of a regular file of at most `most` bytes.
+/// Reads a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// What is no regular file, is longer, or cannot be read, in one line that names the file.
+/// If the file is not regular, is longer, or cannot be read. One line that names the file.
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     let named = |e: std::io::Error| Error::from(e).in_file(path);
     let file = open(path)?;
@@ -72,10 +72,10 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     if bytes.len() as u64 > most { Err(longer()) } else { Ok(bytes) }
 }
 
-/// All of a regular file of at most `most` bytes, which must be UTF-8.
+/// Reads a regular file of at most `most` bytes, which must be UTF-8.
 ///
 /// # Errors
-/// As [`read`]; a byte that is not text.
+/// As for [`read`]; or if the file is not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> Result<String> {
     let mut bytes = read(path, most)?;
     // A mark that some editors put before UTF-8; it is no part of the text.

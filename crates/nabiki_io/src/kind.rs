@@ -1,4 +1,4 @@
-//! What kind of file lies under a name: by its first bytes, and where these do not tell, by the name's ending.
+//! The kind of a file, from its first bytes or else the ending of its name.
 
 use std::fmt;
 use std::io::Read;
@@ -24,7 +24,7 @@ pub(crate) fn way_out(ending: &str) -> &'static str {
     }
 }
 
-/// The kinds of files that come to Nabiki, or are likely to be given to it by mistake.
+/// The kinds of files that Nabiki uses, or that are likely to be passed to it by mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs, reason = "their Display says what they are")]
 pub enum FileKind {
@@ -56,17 +56,17 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// The kind of the file at `path`; `None` where neither its bytes nor its name tell.
+    /// The kind of the file at `path`; `None` if neither its bytes nor its name tell.
     ///
     /// # Errors
-    /// What is no regular file or cannot be read.
+    /// If the file is not regular or cannot be read.
     pub fn of(path: &Path) -> Result<Option<Self>> {
         let mut first = Vec::new();
         input::open(path)?.take(16).read_to_end(&mut first).map_err(|e| Error::from(e).in_file(path))?;
         Ok(Self::of_bytes(&first).or_else(|| Self::of_name(path)))
     }
 
-    /// The kind of a file that begins with `first`, of which sixteen bytes are enough.
+    /// The kind of a file that starts with `first`. Sixteen bytes are enough.
     pub fn of_bytes(first: &[u8]) -> Option<Self> {
         const BEGINNINGS: [(&[u8], FileKind); 19] = [
             (b"NABIKI\r\n", FileKind::Cache),
@@ -97,7 +97,7 @@ impl FileKind {
         BEGINNINGS.into_iter().find(|(beginning, _)| first.starts_with(beginning)).map(|(_, kind)| kind)
     }
 
-    /// The kind that a name's ending stands for.
+    /// The kind for the ending of a name.
     pub fn of_name(path: &Path) -> Option<Self> {
         Some(match extension(path).as_str() {
             "toml" => Self::Scene,
@@ -180,10 +180,10 @@ impl fmt::Display for FileKind {
     }
 }
 
-/// Refuses a file that is known to be no scene, by what it is and what can be done with it.
+/// Refuses a file that is not a scene, saying what it is and how to use it.
 ///
 /// # Errors
-/// One line; also where the file cannot be read at all.
+/// One line. Also if the file cannot be read.
 pub fn check_scene(path: &Path) -> Result<()> {
     match FileKind::of(path)? {
         None | Some(FileKind::Scene) => Ok(()),
@@ -194,10 +194,10 @@ pub fn check_scene(path: &Path) -> Result<()> {
     }
 }
 
-/// Refuses a name under which nobody would take this text for a scene, before it is written there.
+/// Refuses to write this text under a name that does not belong to a scene.
 ///
 /// # Errors
-/// Says what the file would be taken for.
+/// Names the kind of file that the name suggests.
 pub fn check_scene_to_be(path: &Path, text: &str) -> Result<()> {
     match FileKind::of_bytes(text.as_bytes()).or_else(|| FileKind::of_name(path)) {
         None | Some(FileKind::Scene) => Ok(()),

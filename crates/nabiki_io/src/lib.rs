@@ -1,4 +1,5 @@
-//! What goes in and out of Nabiki: hair, heads, motion of the head, motion caches. It knows no scene and no picture.
+//! Reads and writes the files of Nabiki: hair, heads, head motion and motion caches. It does not handle scenes or
+//! pictures.
 //!
 //! ```
 //! use glam::Vec3;

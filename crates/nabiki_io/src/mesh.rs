@@ -1,4 +1,4 @@
-//! Triangle meshes of heads: .obj, .glb, .gltf, .ply, .tfxmesh, USD and Alembic, told apart by their name's ending.
+//! Triangle meshes of heads: .obj, .glb, .gltf, .ply, .tfxmesh, USD and Alembic. The ending of the name decides.
 
 mod check;
 pub(crate) mod glb;
@@ -21,28 +21,28 @@ use crate::{
     placement::Placement,
 };
 
-/// What a mesh import gave, before and after cleaning.
+/// The results of a mesh import, before and after cleaning.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct MeshReport {
-    /// Vertices of the chosen groups as the file has them.
+    /// Vertices of the chosen groups in the file.
     pub vertices_in_file: usize,
-    /// Vertices joined because they share their place with another (seams of UVs and normals).
+    /// Vertices joined because they are at the same position as another (seams of UVs and normals).
     pub joined_vertices: usize,
     /// Triangles dropped because two of their corners coincide.
     pub dropped_triangles: usize,
-    /// What of the file's meshes is left out or not obeyed, a phrase each.
+    /// Phrases about data of the file's meshes that is not used.
     pub unread: Vec<String>,
 }
 
-/// Reads the triangles of a mesh file in its own unit and axes. `groups`: names of .obj groups or objects, of glTF nodes
-/// or meshes, of USD prims or Alembic objects, to keep; all when empty. Larger polygons become fans, node transforms are
-/// applied, and skins of glTF bend as their joints stand in the file.
+/// Reads the triangles of a mesh file in its unit and axes. `groups` are the names of .obj groups or objects, glTF
+/// nodes or meshes, USD prims or Alembic objects to keep; if empty, everything is kept. Larger polygons become fans.
+/// Node transforms are applied, and glTF skins are deformed by the joints' pose in the file.
 pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     read_with_losses(path, groups).map(|(mesh, _)| mesh)
 }
 
-/// The same, with what of the meshes is left out or not obeyed, a phrase each.
+/// Like [`read`]; also returns phrases about data of the meshes that is not used.
 pub fn read_with_losses(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<String>)> {
     let named = |e: Error| e.in_file(path);
     let text = || input::read(path, MOST_TEXT_BYTES);
@@ -70,7 +70,7 @@ fn with_losses(read: &mut dyn FnMut(&mut Vec<String>) -> Result<Mesh>) -> Result
     Ok((read(&mut lost)?, lost))
 }
 
-/// Whether a file's ending is that of a glTF.
+/// Whether the file name ends like a glTF.
 pub fn is_gltf(path: &Path) -> bool {
     matches!(extension(path).as_str(), "glb" | "gltf")
 }
@@ -80,9 +80,8 @@ fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(input::BYTE_ORDER_MARK).unwrap_or(bytes)
 }
 
-/// Names by which parts of a mesh file can be chosen, with the number of faces under each, most faces first: groups and
-/// objects of a .obj, nodes of a glTF that have a mesh of their own, meshes of a USD layer or Alembic archive by their paths. None for
-/// other formats.
+/// Names for choosing parts of a mesh file, with the number of faces of each, most faces first: groups and objects of a
+/// .obj, nodes of a glTF with a mesh, and paths of meshes in a USD layer or Alembic archive. Empty for other formats.
 ///
 /// # Errors
 /// A file that cannot be read.
@@ -97,7 +96,8 @@ pub fn groups(path: &Path) -> Result<Vec<(String, usize)>> {
     Ok(groups)
 }
 
-/// The same from memory; `extension`: `obj`, `ply`, `tfxmesh`, `glb` or `gltf`. Buffers in files of their own are refused.
+/// Reads a mesh from memory. `extension` is `obj`, `ply`, `tfxmesh`, `glb` or `gltf`. Buffers in separate files are
+/// refused.
 pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Mesh> {
     match extension {
         "obj" => obj::from_bytes(bytes, groups, &mut Vec::new()),
@@ -116,7 +116,7 @@ fn without_parts(mesh: Mesh, groups: &[String]) -> Result<Mesh> {
     check::check_groups(groups, &[]).map(|()| mesh)
 }
 
-/// Reads a mesh into head space, joins vertices at the same place and drops triangles without area.
+/// Reads a mesh into head space, joins vertices at the same position and drops triangles without area.
 pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(Mesh, MeshReport)> {
     placement.check("head").map_err(|e| Error::from(e).in_file(path))?;
     let (mesh, unread) = read_with_losses(path, groups)?;
@@ -124,7 +124,7 @@ pub fn import(path: &Path, placement: &Placement, groups: &[String]) -> Result<(
     Ok((mesh, MeshReport { unread, ..report }))
 }
 
-/// The same for a mesh already read, by this crate or another.
+/// Like [`import`], for a mesh that was read by this crate or another.
 pub fn place_and_weld(mesh: Mesh, placement: &Placement) -> Result<(Mesh, MeshReport)> {
     let vertices_in_file = mesh.positions.len();
     let triangles_in_file = mesh.triangles.len();

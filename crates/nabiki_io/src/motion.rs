@@ -1,4 +1,4 @@
-//! Motion of the head: poses from files of many kinds, at the scene's own frame rate.
+//! Motion of the head: poses from many file formats, at the scene's frame rate.
 
 mod acclaim;
 mod bvh;
@@ -29,11 +29,11 @@ pub use survey::{MotionInfo, survey};
 pub use track::{Sample, Track};
 pub use world::HeadMotion;
 
-/// Reads the head's motion at `frame_rate` frames a second.
+/// Reads the head's motion at `frame_rate` frames per second.
 ///
 /// # Errors
-/// A file that is missing, malformed or too short, a joint or clip it does not have, a number that is not finite,
-/// a skeleton, rate, unit or axis that neither file nor `source` gives.
+/// A file that is missing, malformed or too short; a joint or clip that it does not have; a number that is not finite;
+/// or a skeleton, rate, unit or axis that neither file nor `source` gives.
 pub fn read(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
     let file = &source.file;
     let named = |e: Error| e.in_file(file);
@@ -57,10 +57,11 @@ pub fn read(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
     }
 }
 
-/// The samples of a text file, .bvh, .csv, .amc or .tof, which holds `text`; `skeleton`: what `source.skeleton` holds.
+/// The samples of a .bvh, .csv, .amc or .tof file with this `text`. `skeleton` is the text of the file
+/// `source.skeleton`.
 ///
 /// # Errors
-/// As [`read`], but for unit and axes, which samples are without.
+/// As for [`read`], except unit and axes, which samples do not have.
 pub fn track(source: &MotionSource, text: &str, skeleton: Option<&str>) -> Result<Track> {
     let named = |e: Error| e.in_file(&source.file);
     let skeleton_file = source.skeleton.as_deref().unwrap_or(Path::new(""));
@@ -89,10 +90,10 @@ pub fn track(source: &MotionSource, text: &str, skeleton: Option<&str>) -> Resul
     Ok(track)
 }
 
-/// The motion in a .glb or .gltf, which holds `bytes`.
+/// The motion in a .glb or .gltf file with these `bytes`.
 ///
 /// # Errors
-/// As [`read`].
+/// As for [`read`].
 pub fn clip(source: &MotionSource, bytes: &[u8], frame_rate: f64) -> Result<HeadMotion> {
     clip::head_motion(source, bytes, frame_rate).map_err(|e| e.in_file(&source.file))
 }

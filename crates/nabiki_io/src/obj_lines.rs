@@ -1,4 +1,4 @@
-//! Strands kept as the `l` elements of a Wavefront .obj, in its own unit and axes: polylines, or their edges one by one.
+//! Strands stored as `l` elements of a Wavefront .obj, in its unit and axes: polylines, or single edges.
 
 mod join;
 
@@ -11,9 +11,9 @@ use crate::{
 };
 use join::Lines;
 
-/// Reads `l` elements as strands, their first vertices as roots. Elements that go on where another ends are one strand, and so are
-/// edges, of two vertices each, that meet in twos, whatever their order and direction: of these the end that stands first in the
-/// file is the root. Closed lines are left out. All else but `v` is passed over.
+/// Reads `l` elements as strands whose first vertices are the roots. Elements that continue where another ends become
+/// one strand. So do edges of two vertices that meet in pairs, in any order and direction; the end that comes first in
+/// the file is the root. Closed lines are left out. Everything else except `v` is ignored.
 pub fn from_bytes(bytes: &[u8]) -> Result<Hair> {
     let mut vertices: Vec<Vec3> = Vec::new();
     let mut lines = Lines::default();

@@ -1,4 +1,5 @@
-//! Where a file's coordinates lie in head space: unit, up axis, facing and origin, applied once, at the door.
+//! The placement of a file's coordinates in head space: unit, up axis, facing and origin. It is applied once, on
+//! import.
 
 use glam::{Affine3A, DAffine3, DVec3, Mat3, Vec3};
 use nabiki::SettingError;
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub use crate::axis::Axis;
 pub use crate::unit::Unit;
 
-/// How a file's coordinates turn into head space (cm, y up, face +x).
+/// The conversion of a file's coordinates to head space (cm, y up, face +x).
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Placement {
@@ -28,8 +29,8 @@ impl Default for Placement {
 }
 
 impl Placement {
-    /// Refuses units that are not above 0, equal or opposite axes, and origins that are no place.
-    /// `table`: the scene table that holds it, `head`.
+    /// Refuses units that are not above 0, equal or opposite axes, and origins that are not finite. `table` is the
+    /// scene table with these settings, such as `head`.
     pub fn check(&self, table: &str) -> Result<(), SettingError> {
         nabiki::error::check_positive(&format!("{table}.unit"), self.unit.cm)?;
         if self.up.vector().dot(self.facing.vector()) != 0.0 {
@@ -53,24 +54,24 @@ impl Placement {
         self.head_from_file_in_doubles().as_affine3a()
     }
 
-    /// Maps head space back into the file's.
+    /// Maps head space back to the file's space.
     pub fn file_from_head(&self) -> Affine3A {
         self.file_from_head_in_doubles().as_affine3a()
     }
 
-    /// Where the file's world, turned and measured as head space is, has the origin of head space (cm).
+    /// The origin of head space in the file's world, in the axes and unit of head space (cm).
     pub fn origin_in_world(&self) -> DVec3 {
         -self.head_from_file_in_doubles().translation
     }
 
-    /// As [`head_from_file`](Self::head_from_file) in doubles, to be put together with the transforms of a file before any
-    /// point is moved.
+    /// Like [`head_from_file`](Self::head_from_file), in f64, for combining it with the transforms of a file before
+    /// points are transformed.
     pub fn head_from_file_in_doubles(&self) -> DAffine3 {
         let matrix3 = self.head_from_file_rotation().as_dmat3() * f64::from(self.unit.cm);
         DAffine3 { matrix3, translation: matrix3 * -self.origin.as_dvec3() }
     }
 
-    /// As [`file_from_head`](Self::file_from_head) in doubles.
+    /// Like [`file_from_head`](Self::file_from_head), in f64.
     pub fn file_from_head_in_doubles(&self) -> DAffine3 {
         let matrix3 = self.head_from_file_rotation().transpose().as_dmat3() * f64::from(self.unit.cm).recip();
         DAffine3 { matrix3, translation: self.origin.as_dvec3() }

@@ -1,9 +1,9 @@
-//! Text on its way to a person's screen. Names come out of files of others, and what a terminal obeys, or what turns the order of
-//! letters about, must not come along: it is shown as `\x1b` and the like.
+//! Text for display. Names may come from foreign files, so characters that control a terminal or change the direction
+//! of text are shown as `\x1b` and the like.
 
 use std::fmt::{self, Display, Write};
 
-/// What is shown as one line, whatever it holds.
+/// Displays text as one line, whatever it contains.
 ///
 /// ```
 /// use nabiki_io::screen::OneLine;
@@ -12,7 +12,7 @@ use std::fmt::{self, Display, Write};
 /// ```
 pub struct OneLine<T>(pub T);
 
-/// What is shown as the lines that it is.
+/// Displays text with its lines.
 pub struct Lines<T>(pub T);
 
 impl<T: Display> Display for OneLine<T> {
@@ -32,8 +32,8 @@ pub(crate) fn list(names: &[impl Display]) -> String {
     names.iter().map(|name| OneLine(name).to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// Whether a character may change more of a screen than its own place: a control character, what parts lines or paragraphs, what
-/// turns the direction of writing about.
+/// Whether a character may affect more than its own place on a screen: control characters, separators of lines or
+/// paragraphs, and characters that change the direction of text.
 pub fn is_unsafe(c: char) -> bool {
     // Unicode's property Bidi_Control.
     let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

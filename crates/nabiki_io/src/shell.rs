@@ -1,11 +1,11 @@
-//! Words of a command as a POSIX shell takes them.
+//! Words of a command, quoted for a POSIX shell.
 
 use crate::screen::is_unsafe;
 
-/// One word, in quotes where it has anything but letters, digits and what no shell takes for a sign.
+/// Quotes a word, unless it has only letters, digits and signs that no shell interprets.
 ///
-/// What a terminal obeys is written in octal between `$'` and `'`, which POSIX has since 2024 and the shells in use have had for
-/// long: so a command that is shown is one that can be pasted.
+/// Control characters are written in octal between `$'` and `'`, which shells have supported for long and POSIX since
+/// 2024. You can therefore paste a command that is displayed.
 #[must_use]
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+@%".contains(c);
@@ -33,20 +33,20 @@ fn in_octal(word: &str) -> String {
     out + "'"
 }
 
-/// A file that stands by itself in a command, where one whose name begins with a hyphen would be taken for an option.
+/// Quotes a file name that is an operand. A name that starts with a hyphen would otherwise be an option.
 #[must_use]
 pub fn operand(file: &str) -> String {
     if file.starts_with('-') { format!("./{file}") } else { file.to_owned() }
 }
 
-/// A command of such words, parted by spaces.
+/// Joins quoted words with spaces.
 #[must_use]
 pub fn command(words: &[String]) -> String {
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }
 
-/// Whether `text` is a command as [`command`] writes it, which begins with `first`: words, and nothing that a shell would do besides.
-/// A file of others may hold any text in its place.
+/// Whether `text` is a command as written by [`command`] that starts with `first`: only words, with nothing else that a
+/// shell would run. In a foreign file, there may be any text instead.
 #[must_use]
 pub fn is_command(text: &str, first: &[&str]) -> bool {
     words(text).is_some_and(|words| {

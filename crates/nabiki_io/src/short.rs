@@ -1,8 +1,8 @@
-//! Numbers for a person to read.
+//! Numbers for display.
 
 use std::fmt;
 
-/// A number with four digits that count.
+/// A number with four significant digits.
 pub struct Short(pub f32);
 
 impl fmt::Display for Short {

@@ -1,4 +1,4 @@
-//! The sum of bytes, by which damage to them is found.
+//! Checksums of bytes, for detecting damage.
 
 use std::hash::Hasher;
 use std::io::{self, Read, Write};
@@ -15,17 +15,17 @@ const CHUNK: usize = 1 << 14;
 pub(crate) struct Sum(XxHash3_64);
 
 impl Sum {
-    /// Takes the next bytes.
+    /// Adds the next bytes.
     pub fn add(&mut self, bytes: &[u8]) {
         self.0.write(bytes);
     }
 
-    /// Of all that was taken.
+    /// The checksum of everything added.
     pub fn value(&self) -> u64 {
         self.0.finish()
     }
 
-    /// Of the next `length` bytes of a source.
+    /// The checksum of the next `length` bytes of a source.
     pub fn of(source: &mut dyn Read, length: u64) -> Result<u64> {
         let (mut sum, mut left) = (Self::default(), length);
         let mut chunk = [0; CHUNK];

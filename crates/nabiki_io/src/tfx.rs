@@ -7,7 +7,7 @@
 //! reserved words, offsets of points (f32 x 3), strand thickness, strand UVs, point colours, guide numbers, point
 //! UVs, 32 reserved words.
 //!
-//! Both hold guides only: the strands that follow a guide are made up by TressFX when it loads the file, so they are
+//! Both contain only guides. TressFX generates the strands that follow a guide when it loads the file, so they are
 //! neither read nor written here. An offset of 0 means that the array is absent.
 
 use std::io::{Read, Seek, Write};
@@ -24,7 +24,7 @@ use crate::{
 
 const HEADER_BYTES: u32 = 160;
 
-/// Reads a .tfx file held in memory, in its own unit and axes.
+/// Reads a .tfx file from memory, in its unit and axes.
 pub fn from_bytes(bytes: &[u8]) -> Result<Hair> {
     from_source(&mut Bytes::from_slice(bytes))
 }
@@ -141,7 +141,7 @@ fn attributes<R: Read + Seek>(
     Ok(a)
 }
 
-/// What a .tfx file cannot hold of `hair`, a phrase each.
+/// Phrases about the data of `hair` that a .tfx file cannot store.
 pub fn losses(hair: &Hair) -> Vec<String> {
     let a = &hair.attributes;
     let mut lost = Vec::new();
@@ -168,7 +168,7 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     lost
 }
 
-/// Writes version 4, in the unit and axes that `hair` has. All strands must have the same number of points.
+/// Writes version 4, in the unit and axes of `hair`. All strands must have the same number of points.
 pub fn to_writer(hair: &Hair, out: &mut dyn Write) -> Result<()> {
     let (strands, a) = (&hair.strands, &hair.attributes);
     let Some(points) = strands.iter().next().map(<[Vec3]>::len) else {

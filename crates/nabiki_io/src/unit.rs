@@ -17,8 +17,8 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Metres in one unit, by the shortest decimals of its centimetres: 2.54 cm are 0.0254 m, and not the metres of the single
-    /// nearest to 2.54.
+    /// Metres in one unit, from the shortest decimal representation of its centimetres: 2.54 cm give 0.0254 m, instead
+    /// of the metres of the f32 nearest to 2.54.
     pub fn metres(self) -> f64 {
         format!("{}e-2", self.cm).parse().unwrap_or(f64::from(self.cm) / 100.0)
     }

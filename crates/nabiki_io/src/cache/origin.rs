@@ -1,4 +1,4 @@
-//! The file that a cache's hair came from, so that it can go back into that file's own space.
+//! The file that a cache's hair came from, for exports into that file's space.
 
 use glam::{DAffine3, DVec3, Vec3};
 use nabiki::Pose;
@@ -23,22 +23,23 @@ pub(super) const GROOM_TAG: &[u8; 8] = b"groom   ";
 /// Axes by the numbers that the block gives them.
 const AXES: [Axis; 6] = [Axis::PlusX, Axis::MinusX, Axis::PlusY, Axis::MinusY, Axis::PlusZ, Axis::MinusZ];
 
-/// How imported hair lay in its file.
+/// How imported hair was placed in its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
     /// Unit, axes and origin of the file.
     pub placement: Placement,
-    /// Points in the file, of which the import may have left some out.
+    /// Number of points in the file. The import may have left some out.
     pub points: u64,
-    /// The file and where its curves are in it.
+    /// The file, and the position of its curves in it.
     pub groom: GroomCurves,
-    /// Whether a motion says where the head is in a world, which then is the file's; otherwise hair goes from its place in the file.
+    /// Whether a motion places the head in the file's world. Otherwise the hair moves from its place in the file.
     pub in_world: bool,
 }
 
 impl Origin {
-    /// Takes head space to where a pose has it, for a file of hair that came from here: the origin of head space is a point of such a
-    /// file, which the place of a head in its world has in it already. Hair that was grown (`None`) has no file but that.
+    /// Transform from head space to the pose of a head, for a file that the hair came from. In such a file the origin
+    /// of head space is a point of the file; a head that a motion places in its world includes it already. Grown hair
+    /// (`None`) has no other file.
     pub fn world_from_head(of: Option<&Self>, pose: &Pose) -> DAffine3 {
         let origin = of.filter(|of| of.in_world).map_or(DVec3::ZERO, |of| of.placement.origin_in_world());
         let world = pose.world_from_head().as_daffine3();

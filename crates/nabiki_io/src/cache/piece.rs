@@ -1,4 +1,4 @@
-//! A cache that holds some of a motion's strands, made apart from the others: whose, and which.
+//! Caches with a part of a motion's strands, computed separately.
 
 use std::{fmt, ops::Range, str::FromStr};
 
@@ -13,7 +13,7 @@ pub(super) const TAG: &[u8; 8] = b"shard   ";
 /// Bytes of the block before its text.
 const FIXED: usize = 72;
 
-/// Shard K of N: one of N runs of strands, of nearly the same number, that make up all of them.
+/// Shard K of N: one of N ranges of strands of nearly equal size, which together are all strands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Shard {
     number: u32,
@@ -24,7 +24,7 @@ impl Shard {
     /// Shard `number`, 1 to `of`.
     ///
     /// # Errors
-    /// A number that is not among them.
+    /// If `number` is not in 1..=`of`.
     pub fn new(number: u32, of: u32) -> Result<Self> {
         if number == 0 || number > of {
             let line = match of {
@@ -46,7 +46,7 @@ impl Shard {
         self.of
     }
 
-    /// Its strands of so many: a run of them, empty only where there are fewer strands than shards.
+    /// Its range of the strands. Empty only if there are fewer strands than shards.
     pub fn range(self, strands: usize) -> Range<usize> {
         let cut = |shards: u32| (strands as u128 * u128::from(shards) / u128::from(self.of)) as usize;
         cut(self.number - 1)..cut(self.number)
@@ -71,22 +71,22 @@ impl FromStr for Shard {
     }
 }
 
-/// What a cache of some strands says of the whole.
+/// What a piece stores about the complete motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// Which strands.
+    /// The shard.
     pub shard: Shard,
-    /// Strands of the whole.
+    /// Total number of strands.
     pub strands: u64,
-    /// The identity of what moves them, whichever they are.
+    /// The identity of the settings, without the strands.
     pub settings: SceneId,
-    /// The identity of the groom that they are some strands of.
+    /// The identity of the complete groom.
     pub groom: SceneId,
-    /// What these strands add to the identity of the whole.
+    /// The contribution of these strands to the identity of the complete motion.
     pub sum: StrandSum,
-    /// Whether the f64 twin stepped them.
+    /// Whether the f64 twin computed it.
     pub reference: bool,
-    /// The command that made it, without its shard and its file, for whoever misses another piece.
+    /// The command that made it, without shard and file, for a message about a missing piece.
     pub command: String,
 }
 

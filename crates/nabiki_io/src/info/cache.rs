@@ -1,4 +1,4 @@
-//! What is in a motion cache.
+//! Summary of a motion cache.
 
 use std::fmt;
 
@@ -12,28 +12,28 @@ use crate::{
     short::Short,
 };
 
-/// Frames, and the hair of the first.
+/// Frames, and the hair of the first frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CacheInfo {
-    /// Number of frames, the rest frame 0 among them.
+    /// Number of frames, including the rest frame 0.
     pub frames: u64,
-    /// Frames a second.
+    /// Frames per second.
     pub frame_rate: f64,
-    /// The scene that made it.
+    /// The identity of the scene that made it.
     pub scene: SceneId,
-    /// Which shard of a motion it is, `2/7 of 700 strands`; `None` where it is all of it.
+    /// The shard of a motion, such as `2/7 of 700 strands`; `None` for a complete motion.
     pub shard: Option<String>,
-    /// Greatest distance of a point in the last frame from where it was in the first (head space, cm).
+    /// Largest distance of a point between the first and the last frame (head space, cm).
     pub farthest_move: f32,
-    /// Whether the head is elsewhere in the last frame than in the first.
+    /// Whether the head moves between the first and the last frame.
     pub head_moves: bool,
     /// The hair of frame 0 (cm).
     pub rest: HairInfo,
 }
 
 impl CacheInfo {
-    /// Looks at the first and the last frame.
+    /// Reads the first and the last frame.
     pub fn of(mut cache: Reader) -> Result<Self> {
         let frames = cache.frame_count();
         let rest = cache.hair(0)?;

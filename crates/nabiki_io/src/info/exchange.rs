@@ -1,4 +1,4 @@
-//! What is in a USD layer or an Alembic archive.
+//! Summary of a USD layer or an Alembic archive.
 
 use std::{fmt, path::Path};
 
@@ -14,28 +14,29 @@ use crate::screen::{OneLine, list};
 use crate::short::Short;
 use crate::unit::Unit;
 
-/// What is in a layer or archive.
+/// Summary of a layer or archive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ExchangeInfo {
-    /// What stands in the file.
+    /// The objects in the file.
     pub prims: Vec<PrimSummary>,
     /// The curves of the first frame, transforms applied.
     pub hair: Option<HairInfo>,
     /// The meshes, transforms applied.
     pub mesh: Option<MeshInfo>,
-    /// What is not read of a file in which there are neither, a phrase each: what has them says it of itself.
+    /// Phrases about data that is not read, for a file with neither hair nor mesh. Otherwise hair and mesh have their
+    /// own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unread: Vec<String>,
-    /// Frames of the curves; 1 for a groom that stands still.
+    /// Frames of the curves; 1 for a groom that does not move.
     pub frames: usize,
-    /// Frames a second, where anything moves.
+    /// Frames per second, if anything moves.
     pub frame_rate: Option<f64>,
-    /// Centimetres in the file's unit, where it says so.
+    /// The file's unit in centimetres, if declared.
     pub unit_cm: Option<f32>,
-    /// Axis that points up, where it says so.
+    /// The up axis, if declared.
     pub up: Option<String>,
-    /// What the hair, or else the mesh, makes likely of what the file does not say.
+    /// A guess at what the file does not declare, from the hair or else the mesh.
     #[serde(flatten)]
     pub guess: Option<Guess>,
 }
@@ -44,16 +45,16 @@ pub struct ExchangeInfo {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PrimSummary {
-    /// Where it stands.
+    /// Its path.
     pub path: String,
-    /// What it is, and how much of it.
+    /// Its kind and size.
     pub what: String,
-    /// Samples over time; `None` for what does not move.
+    /// Samples over time; `None` if it does not move.
     pub samples: Option<usize>,
-    /// What it is bound to, by the file's word: `material:binding`.
+    /// What it is bound to, in the file's terms: `material:binding`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub relationships: Vec<String>,
-    /// The joints of a skeleton, by their paths in it.
+    /// The paths of a skeleton's joints.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<String>,
 }
@@ -97,10 +98,10 @@ impl fmt::Display for PrimSummary {
 }
 
 impl ExchangeInfo {
-    /// Looks into the file.
+    /// Summarises the file.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// If the file is invalid.
     pub fn of_file(path: &Path) -> Result<Self> {
         let mut file = Opened::new(path)?;
         let contents = file.ask(|r| r.contents())?;

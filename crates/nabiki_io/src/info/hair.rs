@@ -1,4 +1,4 @@
-//! What is in a hair file.
+//! Summary of a hair file.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use super::measure::{Box3, Guess, Spread, guess_unit};
 use crate::hair::{held_at_both_ends, length};
 use crate::screen::OneLine;
 
-/// Strands and what is known of them, in the file's own unit.
+/// Strands and their properties, in the file's unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct HairInfo {
@@ -20,33 +20,33 @@ pub struct HairInfo {
     pub strands: usize,
     /// Number of points of all strands.
     pub points: usize,
-    /// Fewest and most segments of a strand; 0 where there are none.
+    /// Smallest and largest number of segments of a strand; 0 without strands.
     pub segments: [usize; 2],
-    /// Around all points.
+    /// Bounding box of all points.
     pub bounds: Box3,
     /// Arc length of the strands.
     pub strand_length: Spread,
     /// Length of the segments.
     pub segment_length: Spread,
-    /// Segments whose two ends lie at one place.
+    /// Segments of length 0.
     pub zero_segments: usize,
-    /// Strands without any extent.
+    /// Strands of length 0.
     pub empty_strands: usize,
-    /// Strands whose tips are held as well as their roots; the motion lets their tips swing.
+    /// Strands whose tips are fixed as well as their roots. The motion lets these tips swing.
     pub held_at_both_ends: usize,
-    /// Names of what the file carries beside its points.
+    /// Names of the attributes.
     pub attributes: Vec<&'static str>,
-    /// What it carries that is only passed on.
+    /// Attributes that are only passed on.
     pub carried: Vec<Carried>,
-    /// What it says of the strands that is not read, a phrase each.
+    /// Phrases about data of the strands that is not read.
     pub unread: Vec<String>,
-    /// Unit and axis that would make it a person's hair; `None` where they are known.
+    /// A guess at unit and axis, assuming a person's hair; `None` if they are declared.
     #[serde(flatten)]
     pub guess: Option<Guess>,
 }
 
 impl HairInfo {
-    /// Looks through `hair`.
+    /// Summarises `hair`.
     pub fn of(hair: &Hair) -> Self {
         let strands = &hair.strands;
         let lengths: Vec<f32> = strands.iter().map(length).collect();
@@ -75,20 +75,20 @@ impl HairInfo {
     }
 }
 
-/// An attribute that is only passed on, as the file has it.
+/// An attribute that is only passed on, as in the file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Carried {
-    /// Its name there.
+    /// Its name.
     pub name: String,
-    /// Its type, with the number of numbers in a value where they are several: `half`, `float3`.
+    /// Its type, with the number of components if there are several: `half`, `float3`.
     #[serde(rename = "type")]
     pub type_name: String,
-    /// What its numbers stand for, where it is more than numbers: `colour`.
+    /// The meaning of its numbers, if they have one: `colour`.
     pub role: Option<&'static str>,
-    /// What has a value: `constant` the groom, `uniform` each strand, `vertex` each point.
+    /// What each value belongs to: `constant` for the groom, `uniform` for a strand, `vertex` for a point.
     pub interpolation: &'static str,
-    /// How many values there are.
+    /// Number of values.
     pub length: usize,
 }
 

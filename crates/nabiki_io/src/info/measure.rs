@@ -1,4 +1,4 @@
-//! Boxes, spreads and a guess, of which all that is said about a file is made.
+//! Bounding boxes, spreads and guesses in the summary of a file.
 
 use std::fmt;
 
@@ -7,17 +7,17 @@ use serde::Serialize;
 
 use crate::short::Short;
 
-/// The corners of a box around points (the file's unit).
+/// A bounding box (in the file's unit).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Box3 {
-    /// Least x, y and z.
+    /// Smallest x, y and z.
     pub min: [f32; 3],
-    /// Greatest x, y and z.
+    /// Largest x, y and z.
     pub max: [f32; 3],
 }
 
 impl Box3 {
-    /// The box of `points`; all 0 where there are none.
+    /// The bounding box of `points`; all 0 if there are none.
     pub fn of(points: &[Vec3]) -> Self {
         if points.is_empty() {
             return Self { min: [0.0; 3], max: [0.0; 3] };
@@ -42,19 +42,19 @@ impl fmt::Display for Box3 {
     }
 }
 
-/// Least, middle and greatest of some values.
+/// Smallest, median and largest of some values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Least.
+    /// Smallest.
     pub min: f32,
-    /// As many lie below as above.
+    /// Median.
     pub median: f32,
-    /// Greatest.
+    /// Largest.
     pub max: f32,
 }
 
 impl Spread {
-    /// Of values in any order; all 0 where there are none.
+    /// The spread of values in any order; all 0 if there are none.
     pub fn of(mut values: Vec<f32>) -> Self {
         if values.is_empty() {
             return Self { min: 0.0, median: 0.0, max: 0.0 };
@@ -73,12 +73,12 @@ impl fmt::Display for Spread {
     }
 }
 
-/// What a file leaves open and its numbers make likely. It stands only where the file itself says nothing.
+/// A guess, from its numbers, at what a file does not declare.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Guess {
-    /// Unit in which this would be a person's hair or head.
+    /// The unit in which this has the size of a person's hair or head.
     pub likely_unit: Option<&'static str>,
-    /// Axis that points up if the hair hangs.
+    /// The up axis, assuming that the hair hangs.
     pub likely_up: Option<&'static str>,
 }
 

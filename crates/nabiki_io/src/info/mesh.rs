@@ -1,4 +1,4 @@
-//! What is in a mesh file.
+//! Summary of a mesh file.
 
 use std::{collections::HashMap, fmt, path::Path};
 
@@ -18,37 +18,37 @@ use crate::{
     unit::Unit,
 };
 
-/// Triangles and what is known of them, in the file's own unit.
+/// Triangles and their properties, in the file's unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct MeshInfo {
-    /// Vertices as the file has them.
+    /// Vertices in the file.
     pub vertices: usize,
-    /// Triangles as the file has them, larger polygons cut up.
+    /// Triangles in the file, with larger polygons divided.
     pub triangles: usize,
-    /// Around all vertices.
+    /// Bounding box of all vertices.
     pub bounds: Box3,
-    /// Vertices that share their place with another.
+    /// Vertices at the same position as another one.
     pub doubled_vertices: usize,
-    /// Triangles of which two corners lie at one place.
+    /// Triangles with two corners at the same position.
     pub degenerate_triangles: usize,
-    /// Edges with a triangle on one side only, doubled vertices joined: 0 for a closed surface.
+    /// Edges with a triangle on only one side, with doubled vertices joined: 0 for a closed surface.
     pub open_edges: usize,
     /// Edges with more than two triangles.
     pub crowded_edges: usize,
-    /// What of the file's meshes is left out or not obeyed, a phrase each.
+    /// Phrases about data of the file's meshes that is not used.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unread: Vec<String>,
-    /// Unit that would make it a person's head, bust or body, if y is up; `None` where it is known.
+    /// A guess at the unit, assuming a person's head, bust or body with y up; `None` if it is declared.
     #[serde(flatten)]
     pub guess: Option<Guess>,
-    /// Centimetres in the file's unit, where its format says so.
+    /// The file's unit in centimetres, if the format defines it.
     pub unit_cm: Option<f32>,
-    /// Axis that points up, where its format says so.
+    /// The up axis, if the format defines it.
     pub up: Option<String>,
     /// Animations of a .glb that may move a head.
     pub clips: Vec<ClipInfo>,
-    /// Names of the nodes that these may move.
+    /// Names of the nodes that the animations may move.
     pub nodes: Vec<String>,
 }
 
@@ -56,14 +56,14 @@ pub struct MeshInfo {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ClipInfo {
-    /// Its name, empty where it has none.
+    /// Its name, or empty.
     pub name: String,
-    /// Time of its last key (s), where the file says it ahead.
+    /// Time of its last key (s), if the file's header gives it.
     pub end: Option<f64>,
 }
 
 impl MeshInfo {
-    /// Looks into a mesh file.
+    /// Summarises a mesh file.
     pub fn of_file(path: &Path) -> Result<Self> {
         let of_meshes = || -> Result<Self> {
             let (mesh, unread) = mesh::read_with_losses(path, &[])?;
@@ -84,7 +84,7 @@ impl MeshInfo {
         Ok(Self { nodes: if clips.is_empty() { Vec::new() } else { names.collect() }, clips, ..info })
     }
 
-    /// Looks through `mesh`.
+    /// Summarises `mesh`.
     pub fn of(mesh: &Mesh) -> Self {
         let bounds = Box3::of(&mesh.positions);
         let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
@@ -115,8 +115,8 @@ impl MeshInfo {
     }
 }
 
-/// The unit in which a mesh so tall (file units) is most likely a person's head, bust or body; `None` where no unit of
-/// the metric system makes it one.
+/// The unit in which a mesh of this height (file units) is most likely a person's head, bust or body; `None` if it is
+/// none in any metric unit.
 pub fn likely_unit(height: f32) -> Option<&'static str> {
     // A small head to a tall body.
     guess_unit(height, 18.0, 220.0)

@@ -1,4 +1,4 @@
-//! Which node of a glTF moves a mesh of it.
+//! Finds the node of a glTF that moves a mesh.
 
 use std::path::Path;
 
@@ -10,22 +10,22 @@ use crate::gltf_file::{self, Buffers, pose};
 use crate::input::{self, MOST_BINARY_BYTES};
 use crate::mesh::glb;
 
-/// A node that carries a mesh, and what moves it.
+/// A node that carries a mesh, and its animations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClipMover {
-    /// The node: its name, or its path from the root on where others have that name.
+    /// The node's name, or its path from the root if other nodes have the same name.
     pub node: String,
-    /// The animation to choose; empty where the file has no other.
+    /// The animation to choose; empty if the file has only one.
     pub clip: String,
-    /// All animations that move it, as far as they can be chosen.
+    /// All animations that move it and can be chosen.
     pub clips: Vec<String>,
 }
 
-/// The node of the .glb or .gltf that carries most of the vertices for which `counts` holds (the file's unit), of those that
-/// `groups` keep, and is moved by an animation; `None` where nothing moves it, or it has no name to choose it by.
+/// The node of the .glb or .gltf that carries most of the vertices for which `counts` is true (the file's unit) among
+/// those of `groups`, and that an animation moves. `None` if nothing moves it, or it has no name.
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid.
 pub fn clip_mover(file: &Path, groups: &[String], counts: &dyn Fn(Vec3) -> bool) -> Result<Option<ClipMover>> {
     let found = || {
         let bytes = input::read(file, MOST_BINARY_BYTES)?;
@@ -72,10 +72,10 @@ pub fn clip_mover(file: &Path, groups: &[String], counts: &dyn Fn(Vec3) -> bool)
     found().map_err(|e: Error| e.in_file(file))
 }
 
-/// Whether the node that `name` means carries a vertex of the meshes that `groups` keep.
+/// Whether the node `name` carries a vertex of the meshes in `groups`.
 ///
 /// # Errors
-/// What is wrong with the file; a name that no node has, or several.
+/// If the file is invalid, or the name belongs to no node or to several.
 pub fn clip_carries(file: &Path, name: &str, groups: &[String]) -> Result<bool> {
     let found = || {
         let bytes = input::read(file, MOST_BINARY_BYTES)?;

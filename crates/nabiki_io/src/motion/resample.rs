@@ -1,4 +1,4 @@
-//! From the samples of a file to the frames of a scene.
+//! Resamples the samples of a file to the frames of a scene.
 
 use super::source::{Interpolation, MotionSource};
 use super::track::Track;
@@ -8,10 +8,10 @@ use crate::exchange;
 use crate::short::Short;
 
 impl Track {
-    /// The head's poses at `frame_rate` frames a second, in the scene's world.
+    /// The head's poses at `frame_rate` frames per second, in the scene's world.
     ///
     /// # Errors
-    /// No sample left after `source.skip`, times that do not grow, a unit or axis that nobody gives.
+    /// If no sample is left after `source.skip`, times do not increase, or a unit or axis is not given.
     pub fn head_motion(mut self, source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
         let named = |e: Error| e.in_file(&source.file);
         if self.samples.is_empty() {

@@ -1,4 +1,4 @@
-//! What a motion file holds and what it leaves for a scene to say.
+//! Summary of a motion file, and the settings that it leaves to the scene.
 
 use std::fmt;
 use std::path::Path;
@@ -13,28 +13,28 @@ use crate::kind::extension;
 use crate::screen::list;
 use crate::unit::Unit;
 
-/// Samples of a head or of a skeleton.
+/// Summary of the samples of a head or a skeleton.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MotionInfo {
-    /// Number of samples; 0 in a file that holds a skeleton alone.
+    /// Number of samples; 0 in a file with only a skeleton.
     pub samples: usize,
-    /// Time from the first to the last (s), where the file says so.
+    /// Time from the first to the last (s), if the file says.
     pub duration: Option<f64>,
-    /// Joints to choose from; none in a table of poses.
+    /// Joints to choose from; empty for a table of poses.
     pub joints: Vec<String>,
-    /// Centimetres in the file's unit, where it says so.
+    /// The file's unit in centimetres, if declared.
     pub unit_cm: Option<f64>,
-    /// How many frames are there where the file declares another number.
+    /// A phrase about the number of frames, if the file declares another number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unlike: Option<String>,
-    /// Settings of `head.motion` that the file leaves for the scene to give.
+    /// Settings of `head.motion` that the scene must give.
     pub asked: Vec<&'static str>,
 }
 
-/// Looks through a .bvh, .csv, .amc, .asf or .tof file.
+/// Summarises a .bvh, .csv, .amc, .asf or .tof file.
 ///
 /// # Errors
-/// What is wrong with it, in one line.
+/// If the file is invalid, in one line.
 pub fn survey(file: &Path) -> Result<MotionInfo> {
     let text = input::read_text(file, MOST_TEXT_BYTES)?;
     let named = |e: Error| e.in_file(file);

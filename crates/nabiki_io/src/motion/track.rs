@@ -1,4 +1,4 @@
-//! Poses at the times a file gives them, and those between.
+//! Poses at the times of a file, and interpolation between them.
 
 use glam::{DQuat, DVec3};
 
@@ -6,33 +6,33 @@ use super::source::Interpolation;
 use crate::axis::Axis;
 use crate::error::{Error, Result};
 
-/// A joint in its file's own world and unit.
+/// The pose of a joint in its file's world and unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Where it is (file's unit).
+    /// Position (file's unit).
     pub position: DVec3,
-    /// How it is turned from its unturned pose (unit quaternion).
+    /// Rotation from its rest pose (unit quaternion).
     pub rotation: DQuat,
 }
 
 /// Samples of one joint over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Track {
-    /// Times (s), growing, one for each sample.
+    /// Times (s), ascending, one per sample.
     pub times: Vec<f64>,
     /// The samples.
     pub samples: Vec<Sample>,
-    /// What the samples are, for the report: "joint Head".
+    /// What the samples belong to, for the report: "joint Head".
     pub what: String,
-    /// What of the joint's transform the samples do not hold, for the report.
+    /// The part of the joint's transform that the samples do not include, for the report.
     pub left_out: Option<&'static str>,
-    /// How many frames were read where the file declares another number, for the report.
+    /// The number of frames that were read, if the file declares another number, for the report.
     pub unlike: Option<String>,
-    /// Where the joint was when meshes were bound to it, where the file says it.
+    /// The pose of the joint when meshes were bound to it, if the file has it.
     pub bound: Option<Sample>,
-    /// Length of the file's unit (cm) where the file says it.
+    /// Length of the file's unit (cm), if declared.
     pub unit_cm: Option<f64>,
-    /// Up axis where the file says it.
+    /// Up axis, if declared.
     pub up: Option<Axis>,
 }
 

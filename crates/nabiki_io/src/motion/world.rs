@@ -1,8 +1,8 @@
-//! From a file's world into the scene's.
+//! Conversion from a file's world to the scene's.
 //!
-//! A file's world becomes the scene's by one rotation and one scale: its up axis goes to +y, the axis its character
-//! faces goes to +x, its unit to centimetres. The same rotation carries the joint's own axes to head space, so the
-//! unturned joint of a character who faces the file's facing axis is an unturned head.
+//! One rotation and one scale take a file's world to the scene's: its up axis becomes +y, the axis its character faces
+//! becomes +x, and its unit becomes centimetres. The same rotation takes the joint's axes to head space. The unrotated
+//! joint of a character that faces the file's facing axis is therefore an unrotated head.
 
 use glam::{DQuat, DVec3, Vec3};
 use nabiki::Pose;
@@ -14,26 +14,26 @@ use super::track::Sample;
 use crate::axis::Axis;
 use crate::error::{Error, Result};
 
-/// Poses of the head, one for each frame of the scene from frame 0 on.
+/// Poses of the head, one per frame of the scene from frame 0 on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadMotion {
-    /// Frames a second.
+    /// Frames per second.
     pub frame_rate: f64,
-    /// World poses, one for each frame.
+    /// World poses, one per frame.
     pub poses: Vec<Pose>,
-    /// Where the file has the joint when meshes are bound to it (world): a mesh of the same file stands as that has it. `None` where
-    /// it does not say so.
+    /// World pose of the joint when meshes are bound to it: a mesh of the same file is placed for this pose. `None` if
+    /// the file does not have it.
     pub bound: Option<Pose>,
-    /// Number of the first frame on the time line of the shot, which files of whole scenes (USD, Alembic) have; `None` in others, and
-    /// where the motion plays at another speed.
+    /// Number of the first frame on the timeline of the shot, for files of complete scenes (USD, Alembic). `None` for
+    /// others, and if the motion plays at another speed.
     pub first_frame: Option<i32>,
-    /// What was read and how it was converted, in one line for the user.
+    /// One line for the user about what was read and how it was converted.
     pub report: String,
 }
 
 impl HeadMotion {
-    /// The way of what stood unturned with its origin at `place` (world, cm) when it was bound, else in the first frame: the joint carries
-    /// it on from there.
+    /// The motion of an object that was unrotated with its origin at `place` (world, cm) at the bind pose, or else in
+    /// the first frame. The joint carries it from there.
     #[must_use]
     pub fn bound_at(mut self, place: Vec3) -> Self {
         let Some(start) = self.bound.or(self.poses.first().copied()) else { return self };
@@ -54,15 +54,15 @@ pub(super) struct WorldFromFile {
     pub unit_cm: f64,
     /// Axis of the file that points up.
     pub up: Axis,
-    /// Axis of the file that an unturned head faces.
+    /// Axis of the file that an unrotated head faces.
     pub facing: Axis,
 }
 
 impl WorldFromFile {
-    /// Of what file and scene say together.
+    /// From the declarations of file and scene together.
     ///
     /// # Errors
-    /// What neither says; a unit that is no length; axes that are not normal to each other.
+    /// A missing declaration, an invalid unit, or axes that are not perpendicular.
     pub fn new(unit_cm: Option<f64>, up: Option<Axis>, facing: Option<Axis>) -> Result<Self> {
         let unit_cm = unit_cm.ok_or_else(|| asked("unit_cm", "2.54 (cm in one unit)"))?;
         let up = up.ok_or_else(|| asked("up", "\"+y\""))?;
