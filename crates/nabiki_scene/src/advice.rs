@@ -1,13 +1,13 @@
-//! What deserves a look before anything is drawn, and the settings that would mend it.
+//! Advice about a scene before it is drawn, with settings that fix it.
 
 use std::fmt;
 
-/// What deserves a look: what was seen, and what may mend it.
+/// A piece of advice: an observation, and settings that may fix it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Advice {
-    /// What was seen.
+    /// The observation.
     pub seen: String,
-    /// Settings that would make it right, or better, all together; none where no setting can.
+    /// Settings that together fix or improve it. Empty if no setting can.
     pub fixes: Vec<Fix>,
 }
 
@@ -23,7 +23,7 @@ impl Advice {
     }
 }
 
-/// A setting, and the value that it should have.
+/// A setting and its suggested value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fix {
     /// The setting, `head.unit`.

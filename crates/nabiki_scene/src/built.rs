@@ -1,4 +1,4 @@
-//! A scene with everything in its place: the head, the hair, what moves them.
+//! A scene with everything loaded: the head, the hair, and what moves them.
 
 mod bodies;
 mod build;

@@ -1,4 +1,4 @@
-//! What building and running a scene may fail with.
+//! Errors of building and running a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -8,22 +8,22 @@ use nabiki_render::RenderError;
 use crate::advice::Advice;
 use crate::scene::{Problem, SceneError};
 
-/// What went wrong, in one line: file, thing, value, way out. What a terminal would obey is escaped in it.
+/// An error in one line: file, subject, value, remedy. Control characters in it are escaped.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A setting of the scene is refused.
     #[error("{}", OneLine(.0))]
     Scene(#[from] SceneError),
-    /// A file that the scene names is refused; a file could not be written.
+    /// A file of the scene is refused, or a file could not be written.
     #[error("{}", OneLine(.0))]
     File(#[from] nabiki_io::Error),
     /// A picture or movie could not be made.
     #[error("{}", OneLine(.0))]
     Picture(#[from] RenderError),
-    /// A request that the scene cannot meet, or a place that a result cannot go to.
+    /// A request that the scene cannot meet, or an unusable place for a result.
     #[error("{}", OneLine(.0))]
     Refused(String),
-    /// A place that a result cannot go to, of which the system said so, or would have.
+    /// A place for a result that the system refuses, or would refuse.
     #[error("{}", OneLine(&format_args!("{}: {what}", file.display())))]
     Place {
         /// Where it was to go.
@@ -33,13 +33,13 @@ pub enum Error {
         /// In the system's words.
         system: std::io::ErrorKind,
     },
-    /// The watcher asked to stop; nothing is left under a final name.
+    /// The watcher asked to stop. No file with a final name remains.
     #[error("cancelled")]
     Cancelled,
 }
 
 impl Error {
-    /// A refusal in one line.
+    /// An error with this line.
     pub fn refused(line: impl Into<String>) -> Self {
         Self::Refused(line.into())
     }
@@ -63,5 +63,5 @@ impl Error {
     }
 }
 
-/// What this crate's functions return.
+/// The result type of this crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;

@@ -1,4 +1,4 @@
-//! Moving hair for other tools: frames passed on as they are made.
+//! Moving hair for other tools: frames are written as they are computed.
 
 use std::path::{Path, PathBuf};
 
@@ -14,23 +14,23 @@ use crate::place;
 use crate::scene::HeadSource;
 use crate::watch::Watch;
 
-/// Which files of moving hair a task writes beside its other results.
+/// The files of moving hair that a task writes in addition to its other results.
 #[derive(Clone, Debug, Default)]
 pub struct ExportOptions {
     /// .usd, .usda, .usdc or .abc files.
     pub files: Vec<PathBuf>,
-    /// Prim path of the groom over which samples alone are laid; `None` writes complete stages.
+    /// Prim path of a groom, for a layer with only samples over it. `None` writes complete stages.
     pub layer: Option<String>,
-    /// Whether the head goes into the files where it would be left out: the built-in one, which is large and everybody's, and any head
-    /// in .abc files, which Unreal then takes for a mesh, not for a groom.
+    /// Whether to write the head where it is usually left out: the built-in head, which is large and known to
+    /// everybody, and any head in .abc files, which Unreal then imports as a mesh and not as a groom.
     pub head: bool,
 }
 
 impl ExportOptions {
-    /// Refuses names that no moving hair can have, before anything is built.
+    /// Refuses file names that are not valid for moving hair, before anything is built.
     ///
     /// # Errors
-    /// An ending that is not of a format of moving hair; a layer of Alembic, which has none.
+    /// An ending that belongs to no format of moving hair, or a layer for Alembic, which has none.
     pub fn check(&self) -> Result<()> {
         if let (Some(prim), []) = (&self.layer, &self.files[..]) {
             return Err(Error::refused(format!(

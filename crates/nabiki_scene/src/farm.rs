@@ -1,4 +1,4 @@
-//! A scene as a job for many machines: which commands, in which order, and the files that a studio's engine takes.
+//! A scene as a job for many machines: the commands, their order, and the job files of farm engines.
 
 mod openjd;
 mod slurm;
@@ -11,7 +11,7 @@ use nabiki_io::shell::quoted;
 /// The engine that runs a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
-    /// Whatever takes Open Job Description templates (jobtemplate-2023-09): AWS Deadline Cloud and others.
+    /// Open Job Description templates (jobtemplate-2023-09): AWS Deadline Cloud and others.
     OpenJd,
     /// Slurm: a script that submits itself as arrays of tasks.
     Slurm,

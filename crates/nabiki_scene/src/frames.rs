@@ -1,4 +1,4 @@
-//! Where the frames of a motion come from.
+//! Sources of the frames of a motion.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use nabiki_io::cache::Reader;
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
 
-/// Frames, one after another from 0 on.
+/// Frames in order, from 0 on.
 pub trait FrameSource {
     /// The strands of frame `n` (head space, cm); frames are asked for in ascending order.
     ///
@@ -32,29 +32,29 @@ pub trait FrameSource {
     }
 }
 
-/// Frames as they are simulated.
+/// Frames from a simulation.
 pub struct Simulated<'a, S = Simulation> {
     built: &'a BuiltScene,
     stepper: S,
 }
 
 impl<'a> Simulated<'a> {
-    /// The scene's hair at rest, moved by the fast stepper.
+    /// Simulates the scene with the fast stepper, from rest.
     ///
     /// # Errors
-    /// A field too strong for the hair; strands that cannot be moved.
+    /// A field too strong for the hair, or strands that cannot be moved.
     pub fn new(built: &'a BuiltScene) -> Result<Self> {
         Ok(Self { built, stepper: built.simulation()? })
     }
 
-    /// The same motion once more, from rest.
+    /// The same motion again, from rest.
     pub fn again(&self) -> Self {
         Self { built: self.built, stepper: self.stepper.clone() }
     }
 }
 
 impl<'a, S: Stepper> Simulated<'a, S> {
-    /// Moved by any stepper of the scene, at rest.
+    /// Simulates the scene with this stepper, which must be at rest.
     pub fn by(built: &'a BuiltScene, stepper: S) -> Self {
         Self { built, stepper }
     }
@@ -91,17 +91,17 @@ fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
     ))
 }
 
-/// Frames out of a motion cache.
+/// Frames from a motion cache.
 pub struct Cached {
     reader: Reader,
     strands: Strands,
 }
 
 impl Cached {
-    /// The frames of a cache that was made from this scene.
+    /// The frames of a cache of this scene.
     ///
     /// # Errors
-    /// A cache of another scene, or one that ends too soon.
+    /// A cache of another scene, or with too few frames.
     pub fn of(built: &BuiltScene, cache: &Path) -> Result<Self> {
         let reader = Reader::open(cache)?;
         let (file, scene) = (cache.display(), built.scene.file().display());

@@ -1,4 +1,4 @@
-//! What is in a file of any kind that Nabiki knows, scenes too.
+//! Summaries of all files that Nabiki knows, including scenes.
 
 mod scene;
 
@@ -10,12 +10,12 @@ pub use scene::SceneInfo;
 
 use crate::{Result, Scene};
 
-/// What a file turned out to be.
+/// The summary of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Info {
     /// A scene file.
     Scene(Box<SceneInfo>),
-    /// A file of hair, a mesh, motion.
+    /// A file of hair, mesh or motion.
     File(Box<nabiki_io::info::Info>),
 }
 
@@ -43,10 +43,10 @@ impl Serialize for Info {
     }
 }
 
-/// Looks into a file, told by its name's ending: .toml, or what [`nabiki_io::info::info`] knows.
+/// Summarises a file. The ending of the name decides: .toml, or those of [`nabiki_io::info::info`].
 ///
 /// # Errors
-/// What is wrong with the file.
+/// If the file is invalid.
 pub fn info(path: &Path) -> Result<Info> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         Ok(Info::Scene(Box::new(SceneInfo::of(&Scene::load(path, &[])?))))

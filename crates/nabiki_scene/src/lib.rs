@@ -1,10 +1,9 @@
-//! The document of Nabiki and all that a shell does with it: scenes, what they name, loaded and ready to move, films,
-//! exports, reports.
+//! Scenes, and everything that a front end does with them: loading, building, simulation, films, exports and reports.
 //!
-//! A shell (the command line, a window, a script) reads or makes a [`Scene`], hands it to one of the [`tasks`] or
-//! [builds](Scene::build) it and steps it itself, and shows what a [`Watch`] hears.
+//! A front end (the command line, a window, a script) reads or makes a [`Scene`]. It passes the scene to one of the
+//! [`tasks`], or [builds](Scene::build) it and steps it itself. It shows what a [`Watch`] receives.
 //!
-//! Open a scene, change the wind, simulate, read points in the world:
+//! This example opens a scene, changes the wind, simulates it, and reads points in the world:
 //!
 //! ```
 //! use glam::Vec3;

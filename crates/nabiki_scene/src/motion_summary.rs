@@ -1,4 +1,4 @@
-//! What a motion is like, frame by frame: hair inside the head and other bodies, kinks, jumps, calm.
+//! Statistics of a motion, frame by frame: hair inside bodies, kinks, jumps.
 
 use std::fmt;
 
@@ -17,27 +17,27 @@ const KINK: f32 = 0.5;
 /// no bound by which it could be refused.
 const HOP: f32 = 1.5;
 
-/// What one frame is like.
+/// Statistics of one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FrameSummary {
     /// The frame.
     pub frame: u32,
-    /// Share of the nodes, but for the roots, that lie inside the head or another body, 0..1.
+    /// Share of the nodes (except roots) inside the head or another body, 0..1.
     pub inside: f64,
-    /// How deep the deepest of them lies (cm); 0 where none is inside.
+    /// Depth of the deepest node (cm); 0 if none is inside.
     pub depth: f32,
-    /// Share of the joints at which neighbouring segments stand at more than 60 degrees, 0..1.
+    /// Share of the joints that bend by more than 60 degrees, 0..1.
     pub kinks: f64,
-    /// The farthest that a node has gone since the frame before (head space, cm); 0 in the first frame.
+    /// Largest distance that a node moved since the previous frame (head space, cm); 0 in the first frame.
     pub jump: f32,
-    /// How far a node has gone the way back that it came in the frame before (cm); 0 where none turns about. What swings stands
-    /// still where it turns: a step that is too long for what moves hair throws it to and fro.
+    /// Largest distance that a node moved back along its previous step (cm); 0 if none reverses. Hair that swings slows
+    /// down where it reverses. A step that is too long for the forces throws hair back and forth.
     pub hop: f32,
 }
 
 impl FrameSummary {
-    /// Of the hair as it is in `frame`. `before`: its points in the frame before and in that before this, or none.
+    /// The statistics of `frame`. `before` are the points of the two previous frames, the later one first, or empty.
     pub fn of(built: &BuiltScene, frame: u32, strands: &Strands, before: [&[Vec3]; 2]) -> Self {
         let others = others(built, frame);
         let strand = |s: usize| {
@@ -98,21 +98,21 @@ fn kinks(points: &[Vec3]) -> u64 {
     points.windows(3).filter(kinked).count() as u64
 }
 
-/// A whole motion.
+/// Statistics of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct MotionSummary {
     /// Frame 0.
     pub rest: FrameSummary,
-    /// The frame with the largest share inside; the first of several.
+    /// The first frame with the largest share inside.
     pub worst: FrameSummary,
-    /// The frame of the deepest node.
+    /// The frame with the deepest node.
     pub deepest: FrameSummary,
     /// The frame with the most kinks.
     pub most_kinked: FrameSummary,
-    /// The frame of the farthest jump.
+    /// The frame with the largest jump.
     pub farthest_jump: FrameSummary,
-    /// The frame of the farthest hop.
+    /// The frame with the largest hop.
     pub farthest_hop: FrameSummary,
     /// The last frame.
     pub last: FrameSummary,
@@ -125,7 +125,7 @@ pub struct MotionSummary {
 }
 
 impl MotionSummary {
-    /// Takes in the next frame; each once, from 0 on.
+    /// Adds the next frame. Call it once per frame, from 0 on.
     pub fn add(&mut self, built: &BuiltScene, frame: u32, strands: &Strands) {
         let [before, earlier] = &self.before;
         let now = FrameSummary::of(built, frame, strands, [before, earlier]);

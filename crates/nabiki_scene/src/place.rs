@@ -1,4 +1,4 @@
-//! Where results will stand: what cannot be written is refused before there is anything to write.
+//! Checks the places of results, so that errors are reported before the work starts.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -11,16 +11,16 @@ use crate::memory::size;
 use crate::told::Told;
 use crate::watch::Watch;
 
-/// Folders made for results. Those that are still empty in the end, because something was refused, are taken away again.
+/// Folders created for results. Folders that stay empty because of an error are removed again.
 #[derive(Default)]
 pub struct Folders {
     made: Vec<PathBuf>,
 }
 
 impl Folders {
-    /// Makes the folder `path`, and those that it lies in, and tries whether files can be written there.
+    /// Creates the folder `path` and its parents, and tests whether files can be written there.
     ///
-    /// `way_out` ends the line of a refusal.
+    /// `way_out` ends the line of an error.
     pub fn make(&mut self, path: &Path, way_out: &str) -> Result<()> {
         let missing: Vec<&Path> =
             path.ancestors().take_while(|p| !p.as_os_str().is_empty() && fs::symlink_metadata(p).is_err()).collect();
@@ -50,7 +50,7 @@ impl Drop for Folders {
     }
 }
 
-/// Refuses a file that cannot be written: in its place is what a file cannot replace, or its folder takes none.
+/// Refuses a file that cannot be written: something else has its name, or the folder is not writable.
 pub fn file(path: &Path) -> Result<()> {
     free(path, "choose another name")?;
     let target = behind_links(path).map_err(|e| refused(path, "cannot be written there", e, "choose another name"))?;
@@ -65,7 +65,7 @@ pub fn file(path: &Path) -> Result<()> {
     }
 }
 
-/// Refuses what no scene can be written as.
+/// Refuses paths to which no scene can be written.
 pub fn scene(path: &Path) -> Result<()> {
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         return Err(Error::refused(format!("{}: a scene ends in .toml; choose another name", path.display())));
@@ -73,9 +73,9 @@ pub fn scene(path: &Path) -> Result<()> {
     file(path)
 }
 
-/// Refuses what no motion cache can be written as, or over.
+/// Refuses paths to which no motion cache can be written.
 ///
-/// `way_out` ends the line about a name that is none of a cache.
+/// `way_out` ends the line of the error about the name.
 pub fn cache(path: &Path, way_out: &str, inputs: &[PathBuf]) -> Result<()> {
     if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nabiki")) {
         let path = path.display();
@@ -85,8 +85,8 @@ pub fn cache(path: &Path, way_out: &str, inputs: &[PathBuf]) -> Result<()> {
     not_inputs(&[path], inputs)
 }
 
-/// Refuses files that would be written over one another, however they are spelled or linked. All can be written, as
-/// [`file()`] says.
+/// Refuses results that would overwrite one another, however their paths are spelled or linked. All must be writable,
+/// as for [`file()`].
 pub fn distinct(paths: &[&Path]) -> Result<()> {
     for (i, path) in paths.iter().enumerate() {
         if paths[..i].iter().any(|before| is_one(before, path)) {
@@ -96,7 +96,7 @@ pub fn distinct(paths: &[&Path]) -> Result<()> {
     Ok(())
 }
 
-/// Refuses results that would take the place of what they are made from, however either is spelled or linked.
+/// Refuses results that would overwrite inputs, however their paths are spelled or linked.
 pub fn not_inputs(outputs: &[&Path], inputs: &[PathBuf]) -> Result<()> {
     for output in outputs {
         if let Some(input) = inputs.iter().find(|input| input.exists() && is_one(input, output)) {
@@ -113,7 +113,7 @@ pub fn not_inputs(outputs: &[&Path], inputs: &[PathBuf]) -> Result<()> {
 /// From this many bytes on, a result's size is said before it is written.
 const LARGE: u64 = 1 << 30;
 
-/// Says that a file will be large, and refuses one that the disk cannot hold. `bytes`: what it will take at least.
+/// Reports a large file, and refuses one that does not fit on the disk. `bytes` is its least size.
 pub fn room(path: &Path, bytes: u64, watch: &mut dyn Watch) -> Result<()> {
     // What a link leads to is what is written.
     let target = behind_links(path).unwrap_or_else(|_| path.to_owned());
@@ -178,8 +178,7 @@ fn are_one_where_capitals_do_not_count([a, b]: &[PathBuf; 2]) -> bool {
     tried.path().with_file_name(name).exists()
 }
 
-/// Refuses a name that belongs to something else than an ordinary file. A file that is there already is replaced when
-/// the new one is whole.
+/// Refuses a name of something other than an ordinary file. An existing file is replaced when the new one is complete.
 pub fn free(path: &Path, way_out: &str) -> Result<()> {
     let (is, system) = match fs::metadata(path) {
         Ok(there) if there.is_dir() => ("a folder", ErrorKind::IsADirectory),

@@ -1,7 +1,8 @@
-//! Pulling the hair: a lock in a hand, nails that hold others, and the wind that follows, found on a thread of its own.
+//! Pulling the hair with the mouse: the lock, nails that hold others, and the search for the wind, on its own thread.
 //!
-//! While the hand moves, the wind follows it by quick steps. Where it rests, or they gain nothing, the whole search goes on: more steps,
-//! other intervals, other starts; a hand that moves on stops it between two motions. What is found is the nearest motion so far.
+//! While the mouse moves, the wind follows in quick steps. When it rests, or quick steps gain nothing, the full search
+//! continues with more steps, other intervals and other starts. A movement of the mouse stops it between two motions.
+//! The result is the nearest motion so far.
 
 mod few;
 mod follow;
@@ -23,26 +24,26 @@ const REST: Duration = Duration::from_millis(80);
 /// So many quick steps in a row that gain nothing, and the whole search begins.
 const PATIENCE: u32 = 2;
 
-/// Where a pull has come to.
+/// The current result of a pull.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pulled {
     /// The settings that pull the hair there.
     pub answer: Answer,
-    /// The interval that the pull has for its own.
+    /// The index of the pull's interval.
     pub interval: usize,
-    /// The frames whose wind it may change.
+    /// The frames in which it may change the wind.
     pub felt: RangeInclusive<u32>,
     /// Where the lock should be (head space, cm).
     pub goal: Vec3,
-    /// What is left between there and the hair (cm).
+    /// Remaining distance (cm).
     pub left_cm: f64,
-    /// Whether the whole search has come to its end: nothing nearer comes until the hand moves on.
+    /// Whether the full search has ended. Nothing better comes until the mouse moves again.
     pub ended: bool,
-    /// What keeps the hair from the hand, once that is known.
+    /// Why the hair does not reach the mouse, once that is known.
     pub stop: Option<Stop>,
 }
 
-/// A pull: the search on its thread. Let it go by dropping it.
+/// A pull: the search on its thread. Drop it to end the search.
 #[derive(Debug)]
 pub struct Pull {
     shared: Arc<Shared>,
@@ -77,7 +78,7 @@ impl Shared {
 }
 
 impl Pull {
-    /// Takes hold; `wake` is called whenever the wind has followed.
+    /// Starts a pull. `wake` is called after each new result.
     pub fn new(follower: Follower, wake: impl Fn() + Send + 'static) -> Self {
         let shared = Arc::new(Shared::default());
         let theirs = shared.clone();
@@ -96,7 +97,7 @@ impl Pull {
         Self { shared }
     }
 
-    /// The lock should be here (head space, cm; the middle of its nodes).
+    /// Sets the goal for the middle of the lock's nodes (head space, cm).
     pub fn to(&self, goal: Vec3) {
         let mut state = self.shared.lock();
         (state.goal, state.moved) = (Some(goal), Some(Instant::now()));
@@ -104,13 +105,13 @@ impl Pull {
         self.shared.changed.notify_all();
     }
 
-    /// The hand has let go: it will not move any more, and the search need not wait whether it rests.
+    /// Reports that the mouse button was released: the goal is final, so the search need not wait.
     pub fn let_go(&self) {
         self.shared.lock().is_let_go = true;
         self.shared.changed.notify_all();
     }
 
-    /// What the wind has come to since the last call, or why it cannot follow.
+    /// The latest result since the last call, or the error.
     pub fn take(&self) -> Option<Result<Pulled, String>> {
         self.shared.lock().news.take()
     }

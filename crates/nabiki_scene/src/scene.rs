@@ -1,9 +1,9 @@
-//! The scene: everything that decides a movie, built in code or read from TOML, and written back.
+//! The scene: everything that determines a movie. It is built in code or read from TOML, and can be written back.
 //!
-//! Tables of the file: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[free]`, `[contact]`, one
-//! `[[body]]` for each, `[neighbours]`, `[pseudo_force]`, one `[[force]]` for each interval of the paper's field, the other
-//! fields ([`FieldSettings`]), `[disturbance]`, `[picture]`, `[output]`. All may be left out, but for a field in the paper's
-//! form: the defaults are the paper's. Paths are relative to the scene file.
+//! Tables of the file: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[free]`, `[contact]`,
+//! one `[[body]]` per body, `[neighbours]`, `[pseudo_force]`, one `[[force]]` per interval of the paper's field, the
+//! other fields ([`FieldSettings`]), `[disturbance]`, `[picture]`, `[output]`. All are optional, except that the
+//! paper's form needs a field. The defaults are the paper's. Paths are relative to the scene file.
 
 mod body;
 mod edit;
@@ -61,7 +61,7 @@ pub use quantity::{Amount, Length, Measure, Quantity, Speed, Strength, Time, Wei
 use read::{Node, Refusal};
 use tree::{Unwritable, table_of};
 
-/// A scene. Two are equal if they mean the same, wherever they came from.
+/// A scene. Two scenes are equal if they mean the same, whatever their origin.
 ///
 /// ```
 /// use glam::Vec3;
@@ -82,19 +82,19 @@ pub struct Scene {
     pub hair: HairSettings,
     /// `[motion]`
     pub motion: Motion,
-    /// `motion.form`: the equations that hair moves by.
+    /// `motion.form`: the equations of motion.
     pub form: FormChoice,
-    /// `[free]`: what holds hair in shape and calms it, in the free form.
+    /// `[free]`: shape and damping of hair in the free form.
     pub free: FreeSettings,
-    /// `[contact]`: how hair and head touch, in the free form.
+    /// `[contact]`: contact of hair and head in the free form.
     pub contact: Contact,
-    /// `[[body]]`: what else hair does not enter, in the free form.
+    /// `[[body]]`: other bodies that hair collides with in the free form.
     pub bodies: Vec<BodySettings>,
-    /// `[neighbours]`: hair against hair, in the free form.
+    /// `[neighbours]`: hair against hair in the free form.
     pub neighbours: Option<NeighbourForces>,
     /// `[pseudo_force]`
     pub pseudo_force: PseudoForce,
-    /// What pushes the hair: `[[force]]` and other fields. A scene made in code has none until it is given some.
+    /// The fields: `[[force]]` and others. A scene made in code starts without fields.
     pub field: FieldSettings,
     /// `[disturbance]`
     pub disturbance: Option<Disturbance>,
@@ -155,21 +155,21 @@ struct Tables {
 }
 
 impl Scene {
-    /// Reads a scene file. `overrides`: dotted keys with their values in TOML, `motion.time_step` and `0.05`, or
-    /// `force.1.vector` and `[0, -100, 0]`, put in their places before anything is read.
+    /// Reads a scene file. `overrides` are dotted keys with values in TOML, such as `motion.time_step` and `0.05`, or
+    /// `force.1.vector` and `[0, -100, 0]`. They are applied before the settings are read.
     ///
     /// # Errors
-    /// What is wrong with the file or an override: place, key, value and the way out.
+    /// If the file or an override is invalid: position, key, value and remedy.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         let text = kind::check_scene(path).and_then(|()| input::read_text(path, input::MOST_SCENE_BYTES));
         let text = text.map_err(|e| file_error(path, e))?;
         Self::parse(&text, path, overrides)
     }
 
-    /// The same from text; `path` names it in errors, and paths in it are relative to the folder of `path`.
+    /// Reads a scene from text. `path` is its name in errors, and paths in it are relative to the folder of `path`.
     ///
     /// # Errors
-    /// As [`load`](Self::load).
+    /// As for [`load`](Self::load).
     pub fn parse(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         let scene = Self::read(text, path, overrides)?;
         scene.check().map_err(|refused| scene.refusal(refused))?;
@@ -236,7 +236,7 @@ impl Scene {
         })
     }
 
-    /// Refuses every value out of its range. What depends on the head or the hair is checked when they are loaded.
+    /// Refuses values out of range. Checks that depend on the head or the hair are made when those are loaded.
     ///
     /// # Errors
     /// Names the first such setting.
@@ -282,7 +282,7 @@ impl Scene {
         self.origins.replaced()
     }
 
-    /// A refused setting as an error that names the file and the line, or the override, that set it.
+    /// Adds to an error the file and line, or the override, of the setting.
     pub fn refusal(&self, refused: SettingError) -> SceneError {
         let SceneError { key, problem, .. } = refused.into();
         self.origins.error(&key.to_string(), *problem)
@@ -303,12 +303,12 @@ impl Scene {
         self.file().file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// Frames a second, of the movie and of the head's motion.
+    /// Frames per second of the movie and of the head's motion.
     pub fn frame_rate(&self) -> f64 {
         self.motion.frame_rate
     }
 
-    /// Every file that this scene is read from: its own, and those that it names.
+    /// All input files of this scene: its own, and those that it names.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let mut named: Vec<&Path> = Vec::new();
         if let HairSource::Imported(hair) = &self.hair.source {
@@ -333,16 +333,16 @@ impl Scene {
         inputs
     }
 
-    /// A path in the scene, relative to the scene file.
+    /// Resolves a path relative to the scene file.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         resolved(self.file(), path)
     }
 
-    /// The scene as TOML: the text it was read from with what has changed since in its place, comments and layout as they
-    /// were. A setting that is at its default and not in the text stays out of it.
+    /// The scene as TOML: the original text with only the changed settings replaced, so that comments and layout stay.
+    /// A setting that has its default and is not in the text is not added.
     ///
     /// # Errors
-    /// A setting that TOML cannot hold: a whole number beyond 2^63, a path that is not text, a field of a program's own.
+    /// If TOML cannot store a setting: a whole number above 2^63, a path that is not text, or a program's own field.
     pub fn to_toml(&self) -> Result<String, SceneError> {
         if !self.field.own.is_empty() {
             let line = "a file cannot hold a field from a program: remove it from the scene before you save it";
@@ -370,11 +370,11 @@ impl Scene {
         Ok(if of_two { text.replace("\r\n", "\n").replace('\n', "\r\n") } else { text })
     }
 
-    /// Writes [`to_toml`](Self::to_toml) to `path`; the file appears when whole. From then on it is the scene's file, to
-    /// whose folder its paths are relative. What could not be [loaded](Self::load) from there is refused.
+    /// Writes [`to_toml`](Self::to_toml) to `path`. The file appears when it is complete. It then is the scene's file,
+    /// and paths are relative to its folder. A text that could not be [loaded](Self::load) from there is refused.
     ///
     /// # Errors
-    /// As there, what [`load`](Self::load) would say of the file, and what the disk says.
+    /// As for [`to_toml`](Self::to_toml) and [`load`](Self::load), and errors of the disk.
     pub fn save(&mut self, path: &Path) -> Result<(), SceneError> {
         let text = self.text_to_be(path)?;
         write_scene(path, &text)?;
@@ -385,7 +385,7 @@ impl Scene {
     /// The text that [`save`](Self::save) writes to `path`.
     ///
     /// # Errors
-    /// As there, but for what the disk says.
+    /// As for [`save`](Self::save), except errors of the disk.
     pub fn text_to_be(&self, path: &Path) -> Result<String, SceneError> {
         // First, since it knows the lines that the user has before him.
         self.check().map_err(|refused| self.refusal(refused))?;
@@ -443,10 +443,10 @@ pub(crate) fn resolved(scene: &Path, path: &Path) -> PathBuf {
     scene.parent().unwrap_or(Path::new("")).join(path)
 }
 
-/// Writes the text of a scene to `path`, as it is; the file appears when whole.
+/// Writes the text of a scene to `path` unchanged. The file appears when it is complete.
 ///
 /// # Errors
-/// What the disk says.
+/// Errors of the disk.
 pub fn write_scene(path: &Path, text: &str) -> Result<(), SceneError> {
     let write = || {
         let mut file = PartFile::create(path)?;

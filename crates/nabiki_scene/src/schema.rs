@@ -1,7 +1,8 @@
-//! The schema of scenes: every table and setting that a scene file may hold, as the structs declare them, as data.
+//! The schema of scenes: all tables and settings of a scene file, as data from the declarations of the structs.
 //!
-//! [`TABLES`] are the tables with their settings, [`json`] is the same as a JSON Schema (draft 2020-12), by which editors complete and
-//! check scene files. Beyond its own words it has `x-unit`, the unit of a number, `x-units`, those of a text that is a number with its unit, and `x-open`, what is taken where a setting is left out.
+//! [`TABLES`] has the tables with their settings. [`json`] is the same as a JSON Schema (draft 2020-12), with which
+//! editors complete and check scene files. In addition to the standard keywords it has `x-unit`, the unit of a number;
+//! `x-units`, those of a text with number and unit; and `x-open`, what applies if a setting is left out.
 
 use std::fmt::Write;
 
@@ -24,24 +25,24 @@ use crate::scene::{
 pub struct SceneTable {
     /// Its name.
     pub key: &'static str,
-    /// How often it may be there.
+    /// How often it may occur.
     pub occurs: Occurs,
-    /// What it is for, in a sentence.
+    /// Its purpose, in a sentence.
     pub help: &'static str,
-    /// Its settings. Of several, which exclude one another, it has one.
+    /// Its settings. If there are several kinds, a table is of one of them.
     pub kinds: &'static [Table],
-    /// Settings that it has whichever kind it is.
+    /// Settings common to all kinds.
     pub shared: Option<Table>,
 }
 
-/// How often a table is in a scene.
+/// How often a table occurs in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Occurs {
-    /// Always, given or not.
+    /// Always, whether given or not.
     Always,
-    /// Only where it is given.
+    /// Only if it is given.
     IfGiven,
-    /// As often as it is given, `[[force]]`.
+    /// As often as it is given, like `[[force]]`.
     ManyTimes,
 }
 
@@ -56,7 +57,7 @@ impl SceneTable {
         self
     }
 
-    /// Its settings of every kind, those that all have first.
+    /// The settings of all kinds, common ones first.
     pub fn settings(&self) -> impl Iterator<Item = &'static Setting> {
         self.shared.iter().chain(self.kinds).flat_map(|table| table.settings)
     }
@@ -64,7 +65,7 @@ impl SceneTable {
 
 use Occurs::{Always, IfGiven, ManyTimes};
 
-/// All tables, in the order in which files have them.
+/// All tables, in the order of a file.
 pub const TABLES: &[SceneTable] = &[
     SceneTable::of("head", Always, &[BuiltinHead::TABLE, ImportedHead::TABLE])
         .sharing(AnyHead::TABLE, "The head that hair grows on: the built-in bust, or a mesh from a file."),
@@ -90,8 +91,8 @@ pub const TABLES: &[SceneTable] = &[
     SceneTable::of("output", Always, &[Output::TABLE]),
 ];
 
-/// What is declared of a setting, named as in an error: `fan[1].strength`. Several where a table is of several kinds; none of a table at
-/// the top, and of what no setting is called.
+/// The declarations of a setting, named as in an error: `fan[1].strength`. Several if a table has several kinds. Empty
+/// for a top-level table or an unknown name.
 pub fn find(key: &Key) -> Vec<&'static Setting> {
     let names: Vec<&str> = key.steps().iter().filter_map(Step::name).collect();
     let [table, names @ ..] = names.as_slice() else { return Vec::new() };
@@ -109,7 +110,7 @@ pub fn find(key: &Key) -> Vec<&'static Setting> {
     found
 }
 
-/// The tables that a setting may be, or be a list of.
+/// The tables of a setting that is a table or a list of tables.
 pub fn tables(kind: &Kind) -> Vec<&'static Table> {
     match *kind {
         Kind::Table(table) => vec![table],
@@ -119,7 +120,8 @@ pub fn tables(kind: &Kind) -> Vec<&'static Table> {
     }
 }
 
-/// Every setting in a line, for people to read and search: key, default, unit, range and the first paragraph of its help.
+/// All settings, one per line, for reading and searching: key, default, unit, range and the first paragraph of the
+/// help.
 pub fn text() -> String {
     let mut text = String::new();
     for table in TABLES {
@@ -149,7 +151,7 @@ fn lines(key: &str, setting: &Setting, text: &mut String) {
     let _ = writeln!(text, "{key} ({}): {help}", notes.collect::<Vec<_>>().join("; "));
 }
 
-/// A value as a scene file has it.
+/// A value as written in a scene file.
 pub fn in_toml(value: &Datum) -> String {
     match value {
         Datum::Open => String::new(),
@@ -166,7 +168,7 @@ pub fn in_toml(value: &Datum) -> String {
     }
 }
 
-/// The schema as JSON Schema, to be written as JSON.
+/// The JSON Schema, as data to write as JSON.
 pub fn json() -> Datum {
     let mut defs = Vec::new();
     let tables = TABLES.iter().map(|table| (table.key, scene_table(table, &mut defs))).collect();

@@ -1,4 +1,4 @@
-//! Which wind makes the hair of a scene do this: between a scene and the method's solver.
+//! Which wind makes the hair of a scene do this? Connects scenes to the solver.
 
 mod find;
 mod solved;
@@ -21,8 +21,8 @@ pub use wishes::{
 };
 
 impl BuiltScene {
-    /// What would have to be solved for these wishes about its hair, were this to change. Nodes are those of
-    /// [`groom`](Self::groom), places are in head space.
+    /// The problem for these wishes and unknowns. Nodes are those of [`groom`](Self::groom); positions are in head
+    /// space.
     pub fn problem(&self, unknowns: Vec<Unknown>, wishes: Vec<Wish>) -> Problem {
         let field = &self.scene.field;
         let poses = self.given_poses();
@@ -47,8 +47,8 @@ impl BuiltScene {
 }
 
 impl Scene {
-    /// Takes over what a solver found about it as it was `built`. What is as strong as there stays as it is given there: by a speed, or
-    /// in a unit of the world.
+    /// Applies an answer that a solver found for this scene as `built`. Settings that did not change keep the form in
+    /// which they are given, such as a speed or a physical unit.
     pub fn accept(&mut self, answer: &Answer, built: &BuiltScene) {
         let Answer { keyframes, gust, stiffness, settle } = answer;
         let (given, was) = (&built.scene.field.force, built.forces.intervals());

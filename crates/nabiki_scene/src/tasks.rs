@@ -1,5 +1,5 @@
-//! What a shell may ask for: each task refuses what cannot be done before it begins, tells its watcher what it knows,
-//! and leaves only whole files.
+//! The tasks of front ends. Each task checks its input before it starts, reports to its watcher, and leaves only
+//! complete files.
 
 mod convert;
 mod farm;

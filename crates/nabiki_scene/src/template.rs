@@ -1,4 +1,4 @@
-//! A new scene about files of one's own: what they say, and where they do not say it, what they look like.
+//! A new scene for your own files, from their declarations or, failing that, their geometry.
 
 use std::path::Path;
 
@@ -14,20 +14,20 @@ use crate::schema;
 use crate::seat::{self, LikelyRoots, Mended, Seat, centimetres};
 use crate::size::{HALF_AXIS, decimal, mean_half_axis, middle, named_unit, spread, vector};
 
-/// A scene to begin with.
+/// A scene to start from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Template {
-    /// The scene, commented.
+    /// The scene with comments.
     pub text: String,
-    /// What was guessed, a line each.
+    /// The guesses, a line each.
     pub guesses: Vec<String>,
 }
 
-/// Writes a scene for `scene`, the path that it will be saved at. `head`: a mesh, of which `groups` are kept (all if
-/// empty); without it the built-in bust. `hair`: a hair file; without it hair is grown.
+/// The text of a scene that will be saved at the path `scene`. `head` is a mesh, of which `groups` are kept (all if
+/// empty); by default the built-in bust. `hair` is a hair file; by default, hair is grown.
 ///
 /// # Errors
-/// A file that cannot be read, or a head on which no skull is found.
+/// A file that cannot be read, or a head without a skull.
 pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Option<&Path>) -> Result<Template> {
     let mut guesses = Vec::new();
     let (strands, shot) = hair.map(strands_of).transpose()?.unzip();

@@ -1,11 +1,10 @@
-//! The threads that work is shared among, as many as are asked for: made where they are first wanted, those that the system does not
-//! give would end the program.
+//! The worker threads. They are created early, because a thread that the system refuses later would end the program.
 
 use rayon::ThreadPoolBuilder;
 
 use crate::error::{Error, Result};
 
-/// The most that are made.
+/// Largest number of threads.
 pub const MOST: u16 = 512;
 
 /// What says how many, where nothing else does.
@@ -15,10 +14,11 @@ fn in_environment() -> Option<u64> {
     std::env::var(VARIABLE).ok()?.parse().ok().filter(|&count| count > 0)
 }
 
-/// Makes as many threads as are asked for, or as the environment says, or one a core. `build`: how, into the pool that is wanted.
+/// Creates the requested number of threads, or that of the environment, or one per core. `build` creates the pool.
 ///
 /// # Errors
-/// More in the environment than are made; fewer that the system gives: one line with the way out, `fewer`.
+/// A larger number in the environment than [`MOST`], or a number that the system refuses. One line that ends with the
+/// remedy `fewer`.
 pub fn made<T>(
     asked: Option<u16>,
     fewer: &str,
@@ -43,7 +43,7 @@ pub fn made<T>(
     })
 }
 
-/// What is said where the system gives no thread at all.
+/// The message if the system refuses any thread.
 pub fn none_given(error: &std::io::Error) -> String {
     format!(
         "the system cannot start a thread ({error}): end other programs, or raise the limit of threads for this user"

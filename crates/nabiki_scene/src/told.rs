@@ -1,4 +1,4 @@
-//! What a task knows that a person wants to read, as values; their text is that of the command line's report.
+//! Reports of tasks, as data. They display as the text of the command line.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -16,31 +16,31 @@ use crate::memory::size;
 use crate::motion_summary::MotionSummary;
 use crate::solve::Solved;
 
-/// Something said by a task.
+/// A report of a task.
 #[derive(Clone, Debug)]
 pub enum Told {
-    /// Files that are about to be read; sampling the distance to a large head takes seconds.
+    /// Files that are about to be read. Sampling the distance to a large head takes seconds.
     Reading(Vec<PathBuf>),
-    /// What the scene holds.
+    /// A summary of the scene.
     Scene(SceneSummary),
-    /// How long swings take.
+    /// The periods of swings.
     Swing(SwingTable),
-    /// What the motion is like.
+    /// Statistics of the motion.
     Motion(MotionSummary),
-    /// What a solver found.
+    /// The results of a solver.
     Solved(Box<Solved>),
-    /// What looks wrong about the size or place of head and hair.
+    /// Something that looks wrong about the size or position of head and hair.
     Advice(Advice),
-    /// What no file says and a new scene takes for granted.
+    /// An assumption of a new scene that no file declares.
     Guessed(String),
-    /// What of a hair file is left out or not obeyed.
+    /// Data of a hair file that is not used.
     Unread {
         /// The file.
         file: PathBuf,
         /// What it is, as a phrase.
         what: String,
     },
-    /// What a format could not hold of the hair.
+    /// Data of the hair that a format could not store.
     Lost {
         /// The file.
         file: PathBuf,
@@ -54,7 +54,7 @@ pub enum Told {
         /// Bytes that it will take at least.
         bytes: u64,
     },
-    /// Frames of an earlier, longer run that are gone.
+    /// Frames of an earlier, longer run that were removed.
     Removed {
         /// The folder that they were in.
         folder: PathBuf,
@@ -63,7 +63,7 @@ pub enum Told {
         /// The last frame of this run, after which they came.
         last: u32,
     },
-    /// A file that now exists.
+    /// A file that was written.
     Wrote {
         /// The file or folder.
         file: PathBuf,
@@ -112,48 +112,48 @@ impl Told {
     }
 }
 
-/// What a scene holds, and what was dropped of imported files.
+/// Summary of a scene, and of what was dropped from imported files.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SceneSummary {
     /// The scene file.
     pub file: PathBuf,
-    /// The head's mesh, as the scene names it.
+    /// The head's mesh, as named in the scene.
     pub head: String,
     /// Half axes of the head ellipsoid E (cm).
     pub half_axes: [f32; 3],
-    /// Triangles of second sides of the head's mesh, which were left out.
+    /// Triangles of second sides of the head's mesh that were removed.
     pub doubled_triangles: usize,
     /// Triangles of the head's mesh that faced inward and were turned.
     pub turned_triangles: usize,
     /// Edges of the head's openings, which count as closed.
     pub open_edges: usize,
-    /// Whether one of them lies where hair grows.
+    /// Whether an opening lies where hair grows.
     pub skull_is_open: bool,
-    /// What of the meshes of the head's file is left out or not obeyed, a phrase each.
+    /// Phrases about data of the head's file that is not used.
     pub unread: Vec<String>,
-    /// The same of the bodies' files, each with the number of its body.
+    /// The same for bodies' files, each with the index of the body.
     pub unread_of_bodies: Vec<(usize, String)>,
-    /// Frames of the hair's file, of which the first is taken; 1 for hair that stands still.
+    /// Frames of the hair's file, of which the first is used; 1 for hair that does not move.
     pub frames_in_file: usize,
     /// How the head's motion was read and converted.
     pub motion: Option<String>,
-    /// Strands built.
+    /// Number of strands built.
     pub strands: usize,
-    /// Strands of the whole scene.
+    /// Number of strands of the scene.
     pub strands_of_scene: usize,
-    /// Which shard of the strands asked for these are, where they are not all.
+    /// The shard of the requested strands, if these are not all.
     pub shard: Option<ShardOf>,
-    /// Segments of the strands built.
+    /// Number of segments built.
     pub segments: usize,
-    /// Length of the longest (cm).
+    /// Length of the longest strand (cm).
     pub longest: f32,
-    /// What an imported file held.
+    /// The results of the import.
     pub import: Option<ImportReport>,
 }
 
 impl SceneSummary {
-    /// Of a built scene.
+    /// The summary of a built scene.
     pub fn of(built: &BuiltScene) -> Self {
         let strands = built.strands();
         let (imported, bodies) = (built.groom.imported.as_ref(), built.bodies.iter().enumerate());
@@ -241,24 +241,24 @@ impl fmt::Display for SceneSummary {
     }
 }
 
-/// How long a swing takes under each force, before any step: in the paper's form at the root, the middle and the tip of a strand, by c_i
-/// and F (section 4.3 of the paper), in the free form of the strand as a whole.
+/// The periods of swings under each force, before any step. In the paper's form for segments at the root, the middle
+/// and the tip of a strand, from c_i and F (section 4.3 of the paper); in the free form for the complete strand.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SwingTable {
-    /// Length of the strand, the median of the hair's (cm); of what is tied, beyond its tie.
+    /// Length of the strand, the median of the hair (cm). For tied hair, the length beyond the tie.
     pub length: f32,
-    /// Whether that is so of half of the hair or more.
+    /// Whether at least half of the hair is tied.
     pub tied: bool,
-    /// How many steps a frame is divided into, in the free form.
+    /// Number of steps per frame, in the free form.
     pub steps: Option<u32>,
-    /// A row for each interval of `[[force]]`.
+    /// One row per interval of `[[force]]`.
     pub rows: Vec<SwingRow>,
-    /// What the bound of all fields together would do, where there is more than `[[force]]`, stepped.
+    /// The swing under the bound of all fields, if there is more than a stepped `[[force]]`.
     pub at_most: Option<SwingRow>,
 }
 
-/// The swings of one interval.
+/// The swing in one interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SwingRow {
@@ -266,21 +266,21 @@ pub struct SwingRow {
     pub frames: [u32; 2],
     /// |F|.
     pub force: f64,
-    /// Frames of a swing. Infinite where nothing pulls.
+    /// Frames of a swing. Infinite without force.
     pub swing: Swing,
 }
 
-/// How many frames a swing takes.
+/// The number of frames of a swing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Swing {
-    /// In the paper's form: at the root, in the middle, at the tip, of a segment by itself.
+    /// In the paper's form: of single segments at the root, in the middle and at the tip.
     Segments([f64; 3]),
-    /// In the free form: the slowest of the whole strand about force, weight and hold, held at its root.
+    /// In the free form: the slowest swing of the strand under force, weight and hold, fixed at its root.
     Strand(f64),
 }
 
 impl Swing {
-    /// At the tip.
+    /// The number at the tip.
     pub fn of_tip(self) -> f64 {
         match self {
             Self::Segments([_, _, tip]) => tip,
@@ -288,7 +288,7 @@ impl Swing {
         }
     }
 
-    /// All of its numbers, root first.
+    /// All numbers, root first.
     pub fn frames(&self) -> &[f64] {
         match self {
             Self::Segments(frames) => frames,
@@ -324,7 +324,7 @@ fn mean(profile: &Profile, weight: impl Fn(f64) -> f64) -> f64 {
 }
 
 impl SwingTable {
-    /// Of a built scene whose field is not too strong for its hair.
+    /// The periods for a built scene, whose field must not be too strong for its hair.
     pub fn of(built: &BuiltScene) -> Self {
         let form = match &built.dynamics.form {
             Form::Paper => None,

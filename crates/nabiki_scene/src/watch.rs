@@ -1,9 +1,9 @@
-//! Who watches a long task: hears what it says, sees how far it is, may stop it.
+//! Watchers of long tasks, which receive reports and progress and may stop the task.
 
 use crate::error::{Error, Result};
 use crate::told::Told;
 
-/// A shell's side of a task: a terminal, a window, a script. Every method may be left as it is.
+/// The front end's side of a task: a terminal, a window, a script. All methods have defaults.
 pub trait Watch {
     /// Something is now known that a person wants to read.
     fn told(&mut self, told: Told) {
@@ -27,7 +27,7 @@ pub trait Watch {
     }
 }
 
-/// Nobody watches.
+/// A watcher that ignores everything.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unwatched;
 

@@ -1,4 +1,4 @@
-//! What pushes the hair of a scene.
+//! The fields of a scene.
 
 use std::sync::Arc;
 
@@ -10,16 +10,16 @@ use super::way::Way;
 use crate::error::Result;
 use crate::scene::{FieldBound, FieldParts, FieldPlace, FieldSettings, FormChoice, Scene};
 
-/// The fields of a scene, ready to be asked.
+/// The fields of a scene, ready for use.
 #[derive(Debug)]
 pub struct Forces {
     pub(crate) inputs: ForcesInputs,
-    /// All of them together.
+    /// The sum of all fields.
     pub field: Arc<dyn Field>,
-    /// The wind before it meets the head, which is the same everywhere; none where the scene has neither `[[force]]` nor
+    /// The uniform wind, before it flows around the head. No force if the scene has neither `[[force]]` nor
     /// `[body_wind]`.
     pub wind: Arc<dyn Field>,
-    /// What each can reach.
+    /// The bound of each field.
     pub bounds: Vec<FieldBound>,
 }
 
@@ -28,7 +28,7 @@ pub struct Forces {
 pub(crate) struct ForcesInputs {
     settings: FieldSettings,
     pub place: FieldPlace,
-    /// The intervals of `[[force]]` by their strength.
+    /// The intervals of `[[force]]`, with speeds converted to strengths.
     intervals: Vec<Keyframe>,
 }
 
@@ -48,7 +48,7 @@ impl ForcesInputs {
 }
 
 impl Forces {
-    /// The intervals of `[[force]]` by their strength.
+    /// The intervals of `[[force]]`, with speeds converted to strengths.
     pub fn intervals(&self) -> &[Keyframe] {
         &self.inputs.intervals
     }

@@ -25,30 +25,30 @@ pub use imported::Imported;
 
 use grown::{Roots, RootsInputs};
 
-/// Hair at rest: all of a scene's, or the strands asked for.
+/// Hair at rest: all of a scene's strands, or some.
 #[derive(Clone, Debug)]
 pub struct Groom {
     inputs: GroomInputs,
     /// The hair.
     pub hair: Hair,
-    /// Strands of the whole scene, of which [`hair`](Self::hair) may be some.
+    /// Number of strands of the scene. [`hair`](Self::hair) may have fewer.
     pub of_scene: usize,
-    /// Where the hair is one shard of the strands asked for: which, of what.
+    /// The shard, if the hair is one shard of the requested strands.
     pub shard: Option<ShardOf>,
-    /// What its file was; `None` for hair grown here.
+    /// The imported file; `None` for grown hair.
     pub imported: Option<Imported>,
-    /// Number of each strand in the whole.
+    /// Index of each strand among all strands of the scene.
     pub ids: Vec<u32>,
     /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
     pub(super) first: Strands,
 }
 
-/// A shard and the whole that it is of.
+/// A shard of the requested strands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShardOf {
-    /// Which.
+    /// The shard.
     pub shard: Shard,
-    /// Strands that were asked for, of which these are some.
+    /// Number of requested strands.
     pub strands: usize,
     /// All strands of an imported groom; nothing of one that is grown.
     pub(super) groom: StrandSum,

@@ -1,4 +1,4 @@
-//! What a motion cache of a scene is marked with.
+//! The identity of a scene, for motion caches.
 
 use nabiki::Pose;
 use nabiki::body::BodyWay;
@@ -13,11 +13,11 @@ use crate::error::{Error, Result};
 use crate::scene::{FieldSettings, ForceSettings, HairSource};
 
 impl BuiltScene {
-    /// Everything that decides how the hair moves, but not how many frames are made of it, nor how it is drawn. Two
-    /// scenes spelled differently that mean the same have the same.
+    /// A hash of everything that determines how the hair moves, except the number of frames and the pictures. Two
+    /// scenes that mean the same have the same identity, however they are written.
     ///
     /// # Errors
-    /// A file of the head's motion that can no longer be read; a field of a program's own, which nothing tells from another.
+    /// If a file of the head's motion cannot be read again, or a program added its own field, which has no identity.
     pub fn identity(&self) -> Result<SceneId> {
         Ok(SceneId::of(self.settings_identity()?, self.strand_sum()))
     }

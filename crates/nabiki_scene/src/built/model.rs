@@ -1,4 +1,4 @@
-//! The head of a scene, in its place.
+//! The head of a scene.
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -17,15 +17,15 @@ use crate::error::Result;
 use crate::scene::{EllipsoidChoice, HeadSettings, HeadSource, Scene, resolved};
 use crate::size::{HALF_AXES, HALF_AXIS, mean_half_axis, unit_for};
 
-/// A head, and what its file said of it. It is equal to itself and to no other.
+/// A head with the data of its file. It is equal only to itself.
 #[derive(Debug)]
 pub struct Model {
     pub(crate) inputs: ModelInputs,
     /// The head.
     pub head: Head,
-    /// How its file lies in head space; the identity for the built-in head.
+    /// Its file's placement in head space; the identity for the built-in head.
     pub placement: Placement,
-    /// What its file held; `None` for the built-in head.
+    /// The results of the import; `None` for the built-in head.
     pub report: Option<MeshReport>,
     /// What its file says of its own space.
     pub(crate) declared: DeclaredSpace,

@@ -12,13 +12,13 @@ use super::stage::{At, Stage};
 use crate::error::Result;
 use crate::scene::Scene;
 
-/// Where the head is in each frame.
+/// The poses of the head in each frame.
 #[derive(Debug)]
 pub struct Way {
     inputs: Option<WayInputs>,
-    /// World poses of the head from frame 0 on; none for a head that stands still.
+    /// World poses of the head from frame 0 on. Empty for a head that does not move.
     pub poses: Arc<[Pose]>,
-    /// How its motion was read and converted, in one line.
+    /// One line about how its motion was read and converted.
     pub report: Option<String>,
     /// Number of the first frame on the time line of its file, where that has one.
     pub(super) begins: Option<i32>,

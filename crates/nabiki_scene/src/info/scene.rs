@@ -1,4 +1,4 @@
-//! What is in a scene file.
+//! Summary of a scene file.
 
 use std::fmt;
 use std::path::Path;
@@ -25,54 +25,54 @@ use nabiki_io::info::Short;
 use nabiki_io::motion::MotionSource;
 use nabiki_io::screen::OneLine;
 
-/// The outline of a scene; of what it names the head and its motion are loaded, and in the free form the rest. Files that are not there are said to
-/// be missing beside their names.
+/// The summary of a scene. The head and its motion are loaded; in the free form, so is everything else. Missing files
+/// are marked as missing.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SceneInfo {
-    /// The head's mesh, as the scene names it.
+    /// The head's mesh, as named in the scene.
     pub head: String,
-    /// The head ellipsoid E (head space, cm), where the head can be loaded.
+    /// The head ellipsoid E (head space, cm), if the head can be loaded.
     pub ellipsoid: Option<Ellipsoid>,
-    /// Why the head cannot be loaded, where it cannot.
+    /// Why the head cannot be loaded.
     pub head_problem: Option<String>,
-    /// C is E scaled by this.
+    /// C is E scaled by this factor.
     pub shell: f32,
-    /// The file that moves the head, where one does.
+    /// The file that moves the head, if any.
     pub head_motion: Option<String>,
-    /// The hair's file, or how it is grown.
+    /// The hair's file, or a description of grown hair.
     pub hair: String,
     /// Frames after the rest frame.
     pub frames: u32,
     /// Delta t.
     pub time_step: f32,
-    /// How many times slower than that hair moves.
+    /// Slow-motion factor of the hair.
     pub slow: f32,
     /// lambda.
     pub linear_density: f32,
-    /// alpha; of the free form only where the pseudo-force weakens its field.
+    /// alpha. In the free form only if the pseudo-force weakens its field.
     pub alpha: Option<f32>,
-    /// What holds and calms hair in the free form; none in the paper's.
+    /// Settings of the free form; `None` in the paper's form.
     pub free: Option<FreeInfo>,
-    /// What hair keeps out of besides the head, or is drawn with it, each by its table.
+    /// The other bodies, each with its table.
     pub bodies: Vec<(String, String)>,
     /// The vectors of the field.
     pub force: Vec<ForceSettings>,
-    /// The same by their strength, where there is a speed and the hair can be loaded.
+    /// The vectors with speeds converted to strengths, if there is a speed and the hair can be loaded.
     pub strengths: Vec<Keyframe>,
-    /// How they follow one another.
+    /// The ease between them.
     pub ease: Ease,
-    /// The other fields in words, each by its table.
+    /// Descriptions of the other fields, each with its table.
     pub fields: Vec<(String, String)>,
-    /// What each field can reach, where head and motion can be loaded; none where there is nothing but `force`, stepped.
+    /// The bound of each field, if head and motion can be loaded. Empty if there is only a stepped `force`.
     pub bounds: Vec<FieldBound>,
-    /// Why that is unknown, where it is.
+    /// Why the bounds are unknown.
     pub bounds_problem: Option<String>,
-    /// Frames from one disturbance to the next.
+    /// Frames between disturbances.
     pub disturbed_every: Option<u32>,
     /// Width and height of the pictures (pixels).
     pub picture: [u32; 2],
-    /// What is given and changes nothing, a line each.
+    /// Settings without effect, a line each.
     pub unused: Vec<String>,
 }
 
@@ -80,13 +80,13 @@ pub struct SceneInfo {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FreeInfo {
-    /// As the scene has it.
+    /// As given in the scene.
     pub given: FreeSettings,
-    /// The same in the unit of the force and in frames, with the steps of a frame, where the hair can be loaded.
+    /// The same in units of force and frames, with the steps per frame, if the hair can be loaded.
     pub resolved: Option<FreeForm>,
-    /// How far from the head's skin nodes are kept (cm).
+    /// Distance of nodes from the head's skin (cm).
     pub margin: f32,
-    /// Hair against hair, where it is on.
+    /// Neighbour forces, if they are on.
     pub neighbours: Option<NeighbourForces>,
 }
 
@@ -106,7 +106,7 @@ impl FreeInfo {
 }
 
 impl SceneInfo {
-    /// Outlines `scene`.
+    /// Summarises `scene`.
     pub fn of(scene: &Scene) -> Self {
         let hair = match &scene.hair.source {
             HairSource::Imported(ImportedHair { file, strands: None, .. }) => named(scene, file),
@@ -286,7 +286,8 @@ fn come_to(setting: &Setting, numbers: &[f32]) -> String {
 }
 
 impl BuiltScene {
-    /// What a setting, `free.stiffness`, that is given in a unit of the world comes to in its own: `K = 250,000 to 31,000`.
+    /// The value in its own unit of a setting that is given in a physical unit. For `free.stiffness`: `K = 250,000 to
+    /// 31,000`.
     pub fn comes_to(&self, key: &str) -> Option<String> {
         let (Form::Free(free), Some(key)) = (&self.dynamics.form, key.strip_prefix("free.")) else { return None };
         let (given, form) = (&self.scene.free, &free.form);

@@ -1,7 +1,8 @@
-//! The wind that follows a hand, without a clock: quick steps while it moves, the whole search where it rests.
+//! The search behind a pull, without a clock: quick steps while the mouse moves, the full search when it rests.
 //!
-//! Steps are found for a few strands of the lock among the carriers about them, which take a fraction of the time, and judged by the
-//! whole lock among all. What the one does otherwise than the other is added to the goal, so that a few judgements lead the whole lock there.
+//! Steps are computed for a few strands of the lock and the carriers around them, which takes a fraction of the time.
+//! They are checked with the full lock among all hair. The difference between the two is added to the goal, so a few
+//! checks bring the full lock there.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -52,7 +53,7 @@ const STARTS: usize = 4;
 /// What may change for a pull.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Freedom {
-    /// One interval more, before the pull's own.
+    /// Another interval before the pull's.
     pub another: bool,
     /// The stiffness of the hair.
     pub stiffness: bool,
@@ -88,7 +89,7 @@ enum Begin {
 /// Asked between two motions: is there something more urgent?
 type Brake = Arc<dyn Fn() -> bool + Send + Sync>;
 
-/// Follows a hand.
+/// Follows the mouse.
 pub struct Follower {
     /// With the wind as it is.
     problem: Problem,
@@ -114,8 +115,8 @@ impl std::fmt::Debug for Follower {
 }
 
 impl Follower {
-    /// Takes hold of a lock, while nails stay where they are as well as they can. `middle`: of the lock, in the motion as the scene has it (head
-    /// space, cm).
+    /// Starts to pull a lock. Nails stay in place as well as possible. `middle` is the middle of the lock in the motion
+    /// of the scene (head space, cm).
     pub fn new(built: &BuiltScene, held: &Lock, middle: Vec3, nails: &[Lock], freedom: Freedom) -> Self {
         let mut wishes = vec![held.wish(Goal::MeanMoved(Vec3::ZERO), 1.0)];
         wishes.extend(nails.iter().map(|nail| nail.wish(Goal::Stay, NAIL_WEIGHT)));
@@ -145,22 +146,22 @@ impl Follower {
         Self { problem, of_few, middle, goal: middle, from, begin, few_begin: None, tries, at: 0, brake: None }
     }
 
-    /// Whether there are frames for another interval before that of a pull at this one.
+    /// Whether another interval fits before that of a pull in this frame.
     pub fn has_room_for_another(built: &BuiltScene, frame: u32) -> bool {
         let wind =
             KeyedWind { keyframes: built.forces.intervals().to_vec(), ease: built.scene.field.wind.ease, gust: None };
         LENGTHS.into_iter().any(|length| two_intervals(&wind, frame, length, Freedom::default()).is_some())
     }
 
-    /// Gives way to something more urgent between any two motions, while the answer to this is yes.
+    /// Sets a brake: while it returns `true`, the search stops between two motions.
     pub fn set_brake(&mut self, brake: impl Fn() -> bool + Send + Sync + 'static) {
         self.brake = Some(Arc::new(brake));
     }
 
-    /// One quick step toward where the lock should be (head space, cm), and whether it gained anything.
+    /// Takes one quick step toward the goal (head space, cm), and returns whether it gained anything.
     ///
     /// # Errors
-    /// Hair that cannot be moved, and places that are no numbers.
+    /// Hair that cannot be moved, or a goal that is not finite.
     pub fn step(&mut self, goal: Vec3) -> Result<(Pulled, bool), SettingError> {
         self.goal = goal;
         let solvers = self.solvers(self.at, false)?;
@@ -172,8 +173,8 @@ impl Follower {
         Ok((self.pulled(self.at), gained))
     }
 
-    /// The whole search; `found` hears of every motion that is nearer than all before, a stronger wind counted as farther away. What it has
-    /// come to in the end, and what stops it there; none where the brake was pulled.
+    /// Runs the full search. `found` is called with every motion that is nearer than all before; a stronger wind counts
+    /// as farther away. Returns the final result with the reason why it stops there, or `None` if the brake stopped it.
     ///
     /// # Errors
     /// As [`step`](Self::step).

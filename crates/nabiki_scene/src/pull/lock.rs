@@ -1,21 +1,22 @@
-//! Nodes that are held together.
+//! Locks: nodes that are pulled together.
 
 use glam::Vec3;
 use nabiki::Strands;
 use nabiki::solve::{Goal, Node, Wish};
 
-/// Nodes that belong together, in one frame.
+/// Nodes that are pulled together, in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lock {
     /// The frame.
     pub frame: u32,
-    /// Strand and node of each.
+    /// Strand and index of each node.
     pub nodes: Vec<(usize, usize)>,
 }
 
 impl Lock {
-    /// The lock about a node: of each of the first `among` strands that has a node within `radius` (cm) of its place, the node nearest
-    /// to it, roots left out. The strand of that node comes first, the others by their distance. `points`: of the strands at the frame.
+    /// The lock around a node: from each of the first `among` strands with a node within `radius` (cm), the node
+    /// nearest to it, without roots. The strand of that node comes first, then the others by distance. `points` are
+    /// those of the strands in this frame.
     pub fn about(
         frame: u32,
         points: &[Vec3],
@@ -41,13 +42,13 @@ impl Lock {
         Self { frame, nodes: near.into_iter().map(|(_, strand, node)| (strand, node)).collect() }
     }
 
-    /// The middle of its nodes (head space, cm) where the strands have these points.
+    /// The middle of its nodes (head space, cm) for these points of the strands.
     pub fn middle(&self, points: &[Vec3], strands: &Strands) -> Vec3 {
         let sum: Vec3 = self.nodes.iter().map(|&(strand, node)| points[strands.range(strand)][node]).sum();
         sum / self.nodes.len().max(1) as f32
     }
 
-    /// Whether all its nodes are nodes of these strands.
+    /// Whether all its nodes exist in these strands.
     pub fn fits(&self, strands: &Strands) -> bool {
         self.nodes.iter().all(|&(strand, node)| strand < strands.len() && node < strands.range(strand).len())
     }

@@ -1,4 +1,4 @@
-//! What a scene is refused for, as a value: an editor marks the place, a shell prints the one line.
+//! Errors of scenes as data: an editor can mark the position, a command line prints one line.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -6,22 +6,22 @@ use std::path::PathBuf;
 use nabiki::SettingError;
 use nabiki::setting::Key;
 
-/// A scene that cannot be used. Its text is one line: file and line (or override), key, value, way out.
+/// An error about a scene. It displays as one line: file and line (or override), key, value, remedy.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct SceneError {
     /// The scene file; empty for a scene made in code.
     pub file: PathBuf,
-    /// Line of the file that the refused value stands in, from 1; none where no line can be blamed.
+    /// Line of the value in the file, from 1; `None` if there is no such line.
     pub line: Option<usize>,
-    /// The override that set the value, `KEY=VALUE`, where it was not the file.
+    /// The override that set the value, `KEY=VALUE`, if it was not the file.
     pub set: Option<String>,
-    /// The setting as a scene file spells it, `force[1].vector`; empty where the file as a whole is meant.
+    /// The setting's name in the file, such as `force[1].vector`; empty if the error is about the file.
     pub key: Key,
-    /// What is wrong.
+    /// The problem.
     pub problem: Box<Problem>,
 }
 
-/// What is wrong with a setting, or with the file.
+/// The problem with a setting or the file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
     /// The file cannot be read or written.
@@ -31,7 +31,7 @@ pub enum Problem {
         /// What the system said, where it was the system that refused.
         system: Option<std::io::ErrorKind>,
     },
-    /// The text is not TOML: the parser's words.
+    /// The text is not TOML. The parser's message.
     NotToml(String),
     /// No setting has this name.
     UnknownKey {
@@ -40,25 +40,25 @@ pub enum Problem {
         /// The names that the table may hold.
         known: Vec<String>,
     },
-    /// The setting must be given and is not.
+    /// A required setting is missing.
     Missing,
-    /// The setting has no effect beside what else the scene says: why, and the way out.
+    /// The setting has no effect in this scene. The reason and the remedy.
     Useless(String),
-    /// A value of the wrong kind.
+    /// A value of the wrong type.
     Kind {
         /// What was found, with its kind: `string "many"`.
         found: String,
         /// What it must be.
         wanted: String,
     },
-    /// A value out of its range.
+    /// A value out of range.
     Range {
         /// The value.
         value: String,
         /// The range, or the way out.
         remedy: String,
     },
-    /// A file that is named and that the system refuses.
+    /// A named file that the system refuses.
     NoFile {
         /// The name, as a scene file has it.
         value: String,
@@ -69,12 +69,12 @@ pub enum Problem {
         /// What the system says of it.
         system: std::io::ErrorKind,
     },
-    /// Anything else, in words.
+    /// Anything else, as text.
     Other(String),
 }
 
 impl SceneError {
-    /// The refused value, where there is one.
+    /// The refused value, if there is one.
     pub fn value(&self) -> Option<&str> {
         match &*self.problem {
             Problem::Kind { found: value, .. } | Problem::Range { value, .. } | Problem::NoFile { value, .. } => {
@@ -84,7 +84,7 @@ impl SceneError {
         }
     }
 
-    /// The range allowed, or the way out.
+    /// The allowed range, or the remedy.
     pub fn remedy(&self) -> String {
         match &*self.problem {
             Problem::Kind { wanted, .. } => format!("must be {wanted}"),

@@ -1,4 +1,4 @@
-//! Where forces come from: `[[force]]` with `[wind]`, `[gust]`, `[body_wind]`, `[flow]`, `[turbulence]`, `[[point]]`,
+//! The fields of a scene: `[[force]]` with `[wind]`, `[gust]`, `[body_wind]`, `[flow]`, `[turbulence]`, `[[point]]`,
 //! `[[vortex]]`, `[[fan]]`.
 
 use std::sync::Arc;
@@ -16,35 +16,35 @@ use toml::{Table, Value};
 use super::force::ForceSettings;
 use super::tree::{Unwritable, table_of};
 
-/// What pushes the hair. The wind is the sum of `[[force]]`, which `[gust]` makes stronger and weaker, and `[body_wind]`;
-/// `[flow]` leads it round the head. Turbulence and local fields are added to it.
+/// The fields of a scene. The wind is the sum of `[[force]]`, multiplied by `[gust]`, and `[body_wind]`. `[flow]` makes
+/// it flow around the head. Turbulence and local fields are added to it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FieldSettings {
-    /// Vectors uniform in space, each over some frames: equation (5). `[[force]]`
+    /// Vectors uniform in space, each for some frames: equation (5). `[[force]]`
     pub force: Vec<ForceSettings>,
-    /// How they follow one another. `[wind]`
+    /// The ease between them. `[wind]`
     pub wind: Wind,
-    /// A random factor on them. `[gust]`
+    /// A random factor on the vectors. `[gust]`
     pub gust: Option<Gust>,
-    /// The wind that the head makes by moving. `[body_wind]`
+    /// The wind that a moving head feels. `[body_wind]`
     pub body_wind: Option<BodyWind>,
-    /// The way of the wind round the head. `[flow]`
+    /// The flow of the wind around the head. `[flow]`
     pub flow: Option<Flow>,
     /// Random swirls. `[turbulence]`
     pub turbulence: Option<Turbulence>,
-    /// Points that blow or draw. `[[point]]`
+    /// Points that push or pull. `[[point]]`
     pub point: Vec<Point>,
-    /// Whirls. `[[vortex]]`
+    /// Vortices. `[[vortex]]`
     pub vortex: Vec<Vortex>,
     /// Winds in a cone. `[[fan]]`
     pub fan: Vec<Fan>,
-    /// Fields that a program adds to those of the file, which cannot hold them.
+    /// Fields that a program adds. A file cannot store them.
     #[serde(skip)]
     pub own: Vec<OwnField>,
 }
 
-/// A field that a program gives a scene. It is equal to itself and to no other.
+/// A field that a program adds to a scene. It is equal only to itself.
 #[derive(Clone, Debug)]
 pub struct OwnField(pub Arc<dyn Field>);
 
@@ -81,27 +81,27 @@ pub(crate) struct FieldParts {
     pub bounds: Vec<FieldBound>,
 }
 
-/// What one of the fields of a scene can reach.
+/// The bound of one field of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FieldBound {
-    /// Its table, `turbulence`, or `fan[1]`.
+    /// Its table, such as `turbulence` or `fan[1]`.
     pub name: String,
-    /// Bound on |F|; of `gust` and `flow`, on what they multiply the wind by.
+    /// Bound on |F|. For `gust` and `flow`, bound on the factor on the wind.
     pub at_most: f32,
 }
 
 impl FieldSettings {
-    /// A field of keyframes alone: the paper's.
+    /// Only keyframes: the paper's field.
     pub fn keyframes(force: Vec<Keyframe>) -> Self {
         Self { force: force.into_iter().map(ForceSettings::from).collect(), ..Self::default() }
     }
 
-    /// The intervals as they are given, those of a speed with the direction alone.
+    /// The intervals as given. Those with a speed have only a direction.
     pub fn as_given(&self) -> Vec<Keyframe> {
         self.force.iter().map(ForceSettings::as_given).collect()
     }
 
-    /// Whether it is the paper's, of `[[force]]` alone, stepped.
+    /// Whether it is the paper's field: only `[[force]]`, stepped.
     pub fn is_the_papers(&self) -> bool {
         let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan, own } = self;
         let alone = gust.is_none() && body_wind.is_none() && flow.is_none() && turbulence.is_none();
@@ -109,8 +109,8 @@ impl FieldSettings {
         !force.is_empty() && wind.ease == Ease::Stepped && alone && local
     }
 
-    /// Refuses what is out of its range, no field at all, and tables that have nothing to act on. `head_moves`: whether the
-    /// head has a motion; `may_be_none`: whether the form of the motion has something to do without a field.
+    /// Refuses values out of range, a missing field, and tables without effect. `head_moves` is whether the head has a
+    /// motion. `may_be_none` is whether the form of the motion allows no field.
     ///
     /// # Errors
     /// Names the first such setting.

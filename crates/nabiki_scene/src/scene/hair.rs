@@ -1,4 +1,4 @@
-//! `[hair]`: grown here, or imported.
+//! `[hair]`: grown or imported.
 
 use std::path::PathBuf;
 
@@ -19,13 +19,13 @@ use super::tree::{Unwritable, table_of};
 /// `[hair]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HairSettings {
-    /// Where the strands come from: those of a file where the table names a `file`.
+    /// The source of the strands: a file if the table has `file`.
     pub source: HairSource,
-    /// d: the length of the segments that are grown (cm), in which stiffness and the paper's k and i are counted.
+    /// d: the length of grown segments (cm). Stiffness and the paper's k and i are counted in it.
     pub segment_length: f32,
 }
 
-/// Where the strands come from.
+/// The source of the strands.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HairSource {
     /// Grown from the scalp.
@@ -114,13 +114,13 @@ impl Default for HairSettings {
 }
 
 impl HairSettings {
-    /// The most segments that a strand may have: what the .hair format can count.
+    /// Largest number of segments of a strand: the limit of the .hair format.
     pub const MOST_SEGMENTS: usize = u16::MAX as usize;
 
-    /// Refuses no segments, and more than any format holds. `name`: where the number was given.
+    /// Refuses 0 segments, and more than any format can store. `name` is the setting.
     ///
     /// # Errors
-    /// Says the range.
+    /// The error contains the range.
     pub fn check_segments(name: &str, segments: usize) -> Result<(), SettingError> {
         if (1..=Self::MOST_SEGMENTS).contains(&segments) {
             return Ok(());
@@ -128,7 +128,7 @@ impl HairSettings {
         Err(SettingError::new(name, segments, format!("must lie in 1..{}", Self::MOST_SEGMENTS)))
     }
 
-    /// The settings of hair grown here, where it is.
+    /// The settings of grown hair, if it is grown.
     pub fn grown(&self) -> Option<&GrownHair> {
         match &self.source {
             HairSource::Grown(hair) => Some(hair),
@@ -136,7 +136,7 @@ impl HairSettings {
         }
     }
 
-    /// The settings of imported hair, where it is.
+    /// The settings of imported hair, if it is imported.
     pub fn imported(&self) -> Option<&ImportedHair> {
         match &self.source {
             HairSource::Grown(_) => None,
@@ -178,7 +178,7 @@ impl HairSettings {
         Self { source, ..Self::default() }
     }
 
-    /// Refuses what no hair can come from.
+    /// Refuses invalid settings.
     ///
     /// # Errors
     /// Names the first such setting.
@@ -206,7 +206,7 @@ impl GrownHair {
 }
 
 impl ImportedHair {
-    /// What the strands are cleaned of.
+    /// The cleaning of imported strands.
     pub fn cleaning(&self) -> Cleaning {
         Cleaning { join_within: self.join_within, drop_shorter_than: self.drop_shorter_than }
     }

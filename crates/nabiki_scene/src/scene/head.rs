@@ -1,4 +1,4 @@
-//! `[head]`: where the head comes from, the ellipsoids of the paper's section 3.1, what moves it.
+//! `[head]`: the mesh, the ellipsoids of section 3.1 of the paper, and the motion.
 
 use std::path::{Path, PathBuf};
 
@@ -17,20 +17,20 @@ use super::tree::{Unwritable, table_of};
 /// `[head]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadSettings {
-    /// Where its mesh comes from. Key: `mesh`, and those of [`ImportedHead`].
+    /// The source of the mesh. Keys: `mesh`, and those of [`ImportedHead`].
     pub source: HeadSource,
-    /// E: fitted, or its centre and half axes (head space, cm).
+    /// E: fitted, or given by centre and half axes (head space, cm).
     pub ellipsoid: EllipsoidChoice,
-    /// C is E scaled by this, above 1.
+    /// C is E scaled by this factor, above 1.
     pub shell: f32,
     /// A file that moves the head, if one does.
     pub motion: Option<MotionSource>,
 }
 
-/// Where the head's mesh comes from.
+/// The source of the head's mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum HeadSource {
-    /// The project's own bust: `mesh = "builtin:bust"`.
+    /// The built-in bust: `mesh = "builtin:bust"`.
     #[default]
     Builtin,
     /// A file.
@@ -56,11 +56,11 @@ settings! {
     }
 }
 
-/// How the head ellipsoid E is found.
+/// The source of the head ellipsoid E.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(untagged, expecting = "must be \"fit\" or { center = [x, y, z], half_axes = [x, y, z] }")]
 pub enum EllipsoidChoice {
-    /// `"fit"`: fitted to the part of the mesh where hair grows; the built-in bust brings its own.
+    /// `"fit"`: fitted to the part of the mesh where hair grows. The built-in bust has its own.
     #[default]
     #[serde(with = "fit")]
     Fit,
@@ -136,7 +136,7 @@ impl Default for HeadSettings {
 }
 
 impl HeadSettings {
-    /// The name of the built-in head, where a file's would stand.
+    /// The name of the built-in head, in place of a file.
     pub const BUILTIN: &str = "builtin:bust";
 
     fn of(any: AnyHead, source: HeadSource) -> Self {
@@ -149,7 +149,7 @@ impl HeadSettings {
         AnyHead { ellipsoid, shell, motion }
     }
 
-    /// The mesh as a scene names it: its file, or that of the built-in head.
+    /// The mesh as named in a scene: its file, or the built-in head.
     pub fn mesh(&self) -> String {
         match &self.source {
             HeadSource::Builtin => Self::BUILTIN.to_owned(),
@@ -196,7 +196,7 @@ impl HeadSettings {
         Self { source, motion: None, ..Self::default() }
     }
 
-    /// Refuses what no head can be loaded from.
+    /// Refuses invalid settings.
     ///
     /// # Errors
     /// Names the first such setting.
@@ -209,7 +209,8 @@ impl HeadSettings {
 }
 
 impl ImportedHead {
-    /// How the file lies in head space, before an origin is found for it. `up` and `unit`: what the file itself says.
+    /// The file's placement in head space, before an origin is found for it. `up` and `unit` are what the file
+    /// declares.
     pub fn placement(&self, unit: Option<Unit>, up: Option<Axis>) -> Placement {
         let default = Placement::default();
         Placement {

@@ -1,4 +1,4 @@
-//! `[output]`: what a run writes.
+//! `[output]`: the files that a run writes.
 
 use nabiki::dynamics::Motion;
 use nabiki::setting::{Place, refused};
@@ -30,10 +30,10 @@ settings! {
 
 const FARTHEST: f64 = Motion::MOST_FRAMES as f64;
 
-/// Refuses a number of frame 0 that is farther from 0 than a motion can be long.
+/// Refuses a number of frame 0 beyond the largest number of frames of a motion.
 ///
 /// # Errors
-/// Says the range.
+/// The error contains the range.
 pub fn check_first_frame(name: &str, first: i32) -> Result<(), SettingError> {
     let most = Motion::MOST_FRAMES;
     if first.unsigned_abs() <= most {
@@ -51,7 +51,7 @@ impl Output {
         }
     }
 
-    /// Refuses frames of the sheet that the motion does not reach.
+    /// Refuses frames of the sheet beyond the end of the motion.
     ///
     /// # Errors
     /// Names the first of them.

@@ -1,4 +1,4 @@
-//! Quantities in units of the world, in which an animator has a feeling for a setting: `"4.5 cm"`, `"0.3 g"`, `"20 km/h"`.
+//! Quantities in physical units, which animators know: `"4.5 cm"`, `"0.3 g"`, `"20 km/h"`.
 
 use std::fmt::{self, Debug, Display};
 use std::marker::PhantomData;
@@ -8,7 +8,7 @@ use nabiki::setting::{Datum, Kind, Place, Range, Value, Word, refused};
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// What a quantity is of, and the units that it may be given in.
+/// A kind of quantity, with its units.
 pub trait Measure: Copy + Debug + PartialEq {
     /// The units, as they are written after the number.
     const UNITS: &'static [&'static str];
@@ -73,12 +73,12 @@ pub struct Quantity<M> {
 }
 
 impl<M: Measure> Quantity<M> {
-    /// So many of the measure's first unit.
+    /// A quantity in the measure's first unit.
     pub fn new(number: f32) -> Self {
         Self { number, unit: 0, measure: PhantomData }
     }
 
-    /// What a text says, `"20 km/h"`; none where that is no number with a unit of this measure.
+    /// Parses a text such as `"20 km/h"`. `None` if it is not a number with a unit of this measure.
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
         let of_unit = |(unit, name): (usize, &&str)| {
@@ -94,7 +94,7 @@ impl<M: Measure> Quantity<M> {
         Self { number, ..self }
     }
 
-    /// How many of the measure's first unit it is.
+    /// The amount in the measure's first unit.
     pub fn amount(&self) -> f64 {
         f64::from(self.number) * M::FACTORS[self.unit]
     }
@@ -150,18 +150,18 @@ impl<M: Measure> Visitor<'_> for OfText<M> {
     }
 }
 
-/// A number in the setting's own unit, or a quantity of the world, which stands for as many of these.
+/// A number in the setting's own unit, or a quantity in a physical unit that is converted to it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged, bound = "")]
 pub enum Amount<M: Measure> {
     /// In the setting's own unit.
     Number(f32),
-    /// In a unit of the world.
+    /// In a physical unit.
     World(Quantity<M>),
 }
 
 impl<M: Measure> Amount<M> {
-    /// The number in the setting's own unit, where `of_world` says how many of these so many first units of the measure are.
+    /// The number in the setting's own unit. `of_world` converts from the measure's first unit.
     pub fn number(&self, of_world: impl Fn(f64) -> f64) -> f32 {
         match self {
             Self::Number(number) => *number,
@@ -169,7 +169,7 @@ impl<M: Measure> Amount<M> {
         }
     }
 
-    /// The quantity, where it is one.
+    /// The quantity, if it has a physical unit.
     pub fn quantity(&self) -> Option<&Quantity<M>> {
         match self {
             Self::Number(_) => None,
@@ -177,7 +177,7 @@ impl<M: Measure> Amount<M> {
         }
     }
 
-    /// Whether it is nothing, in any unit.
+    /// Whether it is 0, in any unit.
     pub fn is_zero(&self) -> bool {
         self.number(|amount| amount) == 0.0
     }

@@ -1,5 +1,5 @@
-//! A scene as a table of settings by their keys, for shells that show and change any of them; and a scene that moves to
-//! another folder.
+//! A scene as a table of settings by key, for front ends that show and change them; and moving a scene to another
+//! folder.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -10,20 +10,20 @@ use super::tree::{self, Unwritable};
 use super::{HairSource, HeadSource, Scene, SceneError};
 
 impl Scene {
-    /// Every setting with the value that it has, given or not: what a file that says everything would hold. Tables that
-    /// the scene does not have are left out, and so are keys without a value.
+    /// All settings with their values, whether given or default, as in a complete file. Tables that the scene does not
+    /// have, and keys without a value, are left out.
     ///
     /// # Errors
-    /// As [`to_toml`](Self::to_toml).
+    /// As for [`to_toml`](Self::to_toml).
     pub fn settings(&self) -> Result<Table, SceneError> {
         self.tree().map_err(|Unwritable(why)| self.origins.error("", Problem::Other(why)))
     }
 
-    /// The value of one setting, named as for [`with_setting`](Self::with_setting); `None` where it has none, or its table is not in the
-    /// scene.
+    /// The value of one setting, named as for [`with_setting`](Self::with_setting). `None` if it has none or its table
+    /// is not in the scene.
     ///
     /// # Errors
-    /// No such setting; as [`to_toml`](Self::to_toml).
+    /// No such setting, or as for [`to_toml`](Self::to_toml).
     pub fn setting(&self, key: &str) -> Result<Option<Value>, SceneError> {
         tree::check_path(key).map_err(|what| self.origins.error(&tree::short(key), Problem::Other(what)))?;
         if let Some(value) = tree::at(&self.settings()?, key) {
@@ -36,12 +36,12 @@ impl Scene {
         }
     }
 
-    /// The scene with another value of one setting, named as in a file: `motion.time_step`, `force[1].vector`; an index one
-    /// past the end adds to a list. Without a value the key, table or entry of a list is taken out. Ranges are left to
-    /// [`check`](Self::check).
+    /// The scene with another value of one setting, named as in a file: `motion.time_step`, `force[1].vector`. An index
+    /// one past the end appends to a list. Without a value, the key, table or entry of a list is removed. Ranges are
+    /// not checked; use [`check`](Self::check).
     ///
     /// # Errors
-    /// No such setting, or a value of the wrong kind.
+    /// No such setting, or a value of the wrong type.
     pub fn with_setting(&self, key: &str, value: Option<Value>) -> Result<Self, SceneError> {
         let (mut tree, mut origins) = (self.settings()?, self.origins.clone());
         origins.set_anew(key);
@@ -55,7 +55,7 @@ impl Scene {
         }
     }
 
-    /// The same scene as that of the file `path`, which need not exist: relative paths lead where they led before.
+    /// The scene with `path` as its file, which need not exist. Relative paths are adapted to lead to the same files.
     pub fn moved_to(mut self, path: &Path) -> Self {
         // A name alone lies in the working folder, as does what a scene of no file names.
         let folder = |file: &Path| {

@@ -1,4 +1,4 @@
-//! The locks of a wish file, found in the hair of a scene.
+//! Finds the locks of a wish file in the hair of a scene.
 
 use std::collections::HashMap;
 
@@ -12,20 +12,20 @@ use super::wishes::{Lock, WishFile, WishSpace, Wishes};
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
 
-/// A wish, and what it is called in its file.
+/// A wish with its name in the file.
 #[derive(Clone, Debug)]
 pub struct Named {
     /// `wish[0]`, `nail[2]`.
     pub name: String,
-    /// About the nodes of the built hair, in head space.
+    /// The wish, for nodes of the built hair, in head space.
     pub wish: Wish,
 }
 
 impl WishFile {
-    /// The wishes about the hair of a scene, and then the nails, one for each frame.
+    /// The wishes for the hair of a scene, then the nails, one per frame.
     ///
     /// # Errors
-    /// Strands and frames that are not there, places where there is no hair; a scene that cannot be moved.
+    /// Strands or frames that do not exist, positions without hair, or a scene that cannot be simulated.
     pub fn about(&self, built: &BuiltScene) -> Result<Vec<Named>> {
         let Wishes { space, wish, nail, .. } = &self.wishes;
         let places = built.groom.ids.iter().enumerate().map(|(s, &id)| (id, s)).collect();

@@ -1,25 +1,25 @@
-//! What a search found, for a person to read.
+//! The results of a search, for display.
 
 use std::fmt;
 
 use nabiki::solve::{Report, Unknown, WishLeft};
 use nabiki_io::screen::OneLine;
 
-/// A wish is met where no more is left of it than this (cm, root mean square over its nodes).
+/// A wish is met if its remaining distance is at most this (cm, root mean square over its nodes).
 pub const MET_CM: f64 = 0.5;
 
-/// What a search found.
+/// The results of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solved {
-    /// As the solver says it.
+    /// The solver's report.
     pub report: Report,
-    /// What each wish is called in its file.
+    /// The name of each wish in its file.
     pub names: Vec<String>,
-    /// What could change.
+    /// The unknowns.
     pub unknowns: Vec<Unknown>,
-    /// How many strands the wishes are about.
+    /// Number of strands in the wishes.
     pub strands: usize,
-    /// How long it took.
+    /// Duration of the search.
     pub seconds: f64,
 }
 

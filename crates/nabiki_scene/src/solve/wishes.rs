@@ -1,4 +1,4 @@
-//! The wish file: what should be where in which frames, and what may change for it.
+//! The wish file: which hair should be where in which frames, and what may change for it.
 
 use std::path::Path;
 
@@ -17,26 +17,26 @@ use crate::scene::{SceneError, file_error};
 /// A wish file, TOML: `[unknowns]`, `[[wish]]`, `[[nail]]`, `[prior]`, `[search]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WishFile {
-    /// What it says.
+    /// The wishes.
     pub wishes: Wishes,
     origins: Origins,
 }
 
-/// What a wish file says.
+/// The contents of a wish file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "a wish file")]
 pub struct Wishes {
-    /// The space that its points are in (default: the world).
+    /// The space of its points (default: the world).
     pub space: WishSpace,
-    /// What may change; without it the vectors of all intervals that wishes and nails can feel.
+    /// What may change. By default, the vectors of all intervals that can influence wishes and nails.
     pub unknowns: Option<Unknowns>,
-    /// What should be where.
+    /// Where locks should be.
     pub wish: Vec<WishEntry>,
-    /// What should stay.
+    /// Locks that should stay.
     pub nail: Vec<NailEntry>,
-    /// What is preferred where wishes leave a choice.
+    /// Preferences among solutions.
     pub prior: PriorEntry,
-    /// How long and how widely is searched.
+    /// Limits of the search.
     pub search: SearchEntry,
 }
 
@@ -44,7 +44,7 @@ pub struct Wishes {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum WishSpace {
-    /// The world, in the frame that is spoken of.
+    /// The world, in the frame of the wish.
     #[default]
     World,
     /// Head space.
@@ -55,18 +55,18 @@ pub enum WishSpace {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Unknowns {
-    /// Numbers of intervals, from 0 in the order of `[[force]]`, whose vectors may change. A new interval counts as if it
-    /// stood there already, and is free without being named.
+    /// Indices of the intervals whose vectors may change, from 0 in the order of `[[force]]`. A new interval is counted
+    /// as if it were there already, and may change without being listed.
     pub vectors: Vec<usize>,
-    /// Numbers of intervals whose last frame may change, which is where the next one begins.
+    /// Indices of the intervals whose last frame, the border to the next one, may change.
     pub borders: Vec<usize>,
     /// A new interval.
     pub interval: Option<Interval>,
     /// Whether `gust.intensity` may change.
     pub gust: bool,
-    /// Whether `free.stiffness` may change, all its numbers by one factor.
+    /// Whether `free.stiffness` may change, by one common factor.
     pub stiffness: bool,
-    /// Whether `free.settle` may change, all its numbers by one factor.
+    /// Whether `free.settle` may change, by one common factor.
     pub settle: bool,
 }
 
@@ -83,39 +83,39 @@ pub struct Interval {
 /// Some strands, or parts of them: named, or found near a point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Lock<'a> {
-    /// Numbers of strands in the scene's.
+    /// Indices of strands of the scene.
     pub strands: &'a [u32],
-    /// All with a node near a point.
+    /// All strands with a node near a point.
     pub near: Option<Near>,
-    /// The part of each strand that is meant, 0 at its root and 1 at its tip; without it all of strands that are named, and
-    /// of those found near a point the nodes that are near it.
+    /// The part of each strand, 0 at its root and 1 at its tip. By default, all of the strands in `strands`, and the
+    /// near nodes of strands found near a point.
     pub along: Option<[f32; 2]>,
 }
 
-/// What lies near a point.
+/// A neighbourhood of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Near {
     /// The point (cm).
     pub point: Vec3,
-    /// How near (cm).
+    /// The distance (cm).
     pub radius: f32,
-    /// The frame in which hair is looked for there, 0 for rest (default: the one that the wish is about).
+    /// The frame in which to look for the hair; 0 is rest (default: the frame of the wish).
     pub frame: Option<u32>,
 }
 
-/// `[[wish]]`: a lock should be somewhere in a frame. One of `moved`, `mean_moved`, `mean_at`, `places` says where.
+/// `[[wish]]`: where a lock should be in a frame, given by one of `moved`, `mean_moved`, `mean_at`, `places`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WishEntry {
     /// The frame.
     pub frame: u32,
-    /// Numbers of strands.
+    /// Indices of strands.
     #[serde(default)]
     pub strands: Vec<u32>,
-    /// Or all with a node near a point.
+    /// Or all strands with a node near a point.
     pub near: Option<Near>,
-    /// The part of each strand that is meant.
+    /// The part of each strand.
     pub along: Option<[f32; 2]>,
     /// Each node moved by this from where it is (cm).
     pub moved: Option<Vec3>,
@@ -125,7 +125,7 @@ pub struct WishEntry {
     pub mean_at: Option<Vec3>,
     /// Each node at its own place, strand by strand from the node after the root to the tip (cm).
     pub places: Option<Vec<Vec3>>,
-    /// How much it counts beside others, above 0 (default 1).
+    /// Weight relative to others, above 0 (default 1).
     #[serde(default = "one")]
     pub weight: f32,
 }
@@ -136,37 +136,37 @@ pub struct WishEntry {
 pub struct NailEntry {
     /// The frames.
     pub frames: Vec<u32>,
-    /// Numbers of strands.
+    /// Indices of strands.
     #[serde(default)]
     pub strands: Vec<u32>,
-    /// Or all with a node near a point.
+    /// Or all strands with a node near a point.
     pub near: Option<Near>,
-    /// The part of each strand that is meant.
+    /// The part of each strand.
     pub along: Option<[f32; 2]>,
-    /// How much it counts in each frame beside others, above 0 (default 1).
+    /// Weight in each frame relative to others, above 0 (default 1).
     #[serde(default = "one")]
     pub weight: f32,
 }
 
-/// `[prior]`: small terms beside the wishes.
+/// `[prior]`: small terms added to the wishes.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PriorEntry {
-    /// What a vector changed by 100 counts as, in cm that wishes are missed by (default 0.02).
+    /// Cost of a change of a vector by 100, as a distance of the wishes in cm (default 0.02).
     pub keep: f32,
-    /// The same of vectors that differ by 100 from an interval to the next (default 0.01).
+    /// Cost of a difference of 100 between adjacent intervals (default 0.01).
     pub alike: f32,
 }
 
-/// `[search]`: how long and how widely is searched.
+/// `[search]`: limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SearchEntry {
-    /// Steps from each start at the most (default 30).
+    /// Largest number of steps from each start (default 30).
     pub iterations: usize,
-    /// Starts at the most (default 4).
+    /// Largest number of starts (default 4).
     pub starts: usize,
-    /// So near to all wishes is near enough (rms, cm; default 0.1): no other start is tried.
+    /// Distance from all wishes that is near enough (rms, cm; default 0.1): no other start is tried.
     pub near: f64,
     /// Seed of the other starts.
     pub seed: u64,
@@ -206,16 +206,16 @@ impl WishFile {
     /// Reads a wish file.
     ///
     /// # Errors
-    /// What is wrong with it: file, line, key, value and the way out.
+    /// If the file is invalid: file, line, key, value and remedy.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let text = input::read_text(path, input::MOST_SCENE_BYTES).map_err(|e| file_error(path, e))?;
         Self::parse(&text, path)
     }
 
-    /// The same from text; `path` names it in errors.
+    /// Reads wishes from text. `path` is the name in errors.
     ///
     /// # Errors
-    /// As [`load`](Self::load).
+    /// As for [`load`](Self::load).
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
         let (table, origins) = tree::parse(text, path, &[], Table::new)?;
         let wishes = Wishes::deserialize(Node(&Value::Table(table))).map_err(|refusal| {
@@ -227,12 +227,12 @@ impl WishFile {
         Ok(file)
     }
 
-    /// The file.
+    /// The path of the file.
     pub fn path(&self) -> &Path {
         &self.origins.file
     }
 
-    /// A refused value as an error that names the file and the line.
+    /// Adds file and line to an error.
     pub fn refusal(&self, refused: SettingError) -> SceneError {
         let SceneError { key, problem, .. } = refused.into();
         self.origins.error(&key.to_string(), *problem)
@@ -240,7 +240,7 @@ impl WishFile {
 }
 
 impl Wishes {
-    /// Refuses what no scene could meet.
+    /// Refuses wishes that are invalid for any scene.
     ///
     /// # Errors
     /// Names the first such value.
@@ -282,13 +282,13 @@ impl Wishes {
         Ok(())
     }
 
-    /// What may change of a scene with so many `intervals` of the force.
+    /// What may change in a scene with this number of `intervals`.
     pub fn unknowns(&self, intervals: usize) -> Unknowns {
         let all = || Unknowns { vectors: (0..intervals).collect(), ..Unknowns::default() };
         self.unknowns.clone().unwrap_or_else(all)
     }
 
-    /// The largest number of a strand that it names.
+    /// The largest index of a strand in the wishes.
     pub fn largest_strand(&self) -> Option<u32> {
         let named = self.wish.iter().flat_map(|wish| &wish.strands);
         named.chain(self.nail.iter().flat_map(|nail| &nail.strands)).copied().max()
@@ -365,10 +365,10 @@ impl Unknowns {
         Ok((felt, out_of_reach.into_iter().map(line).collect()))
     }
 
-    /// The intervals of a scene with the new one, if there is one, and all that may change.
+    /// The intervals of a scene, including the new one if there is one, and all unknowns.
     ///
     /// # Errors
-    /// Intervals that are not there, an interval beyond the scene's `frames`.
+    /// Intervals that do not exist, or an interval beyond the scene's `frames`.
     pub fn of(&self, force: &[Keyframe], frames: u32) -> Result<(Vec<Keyframe>, Vec<Unknown>), SettingError> {
         let Self { vectors, borders, interval, gust, stiffness, settle } = self;
         let (force, new) = match *interval {

@@ -1,4 +1,4 @@
-//! From one hair format to another, a frame out of a cache, or all of it for other tools.
+//! Conversion between hair formats, and of one frame or all frames of a motion cache.
 
 use std::path::{Path, PathBuf};
 
@@ -17,31 +17,31 @@ use crate::scene::{HairSettings, check_first_frame};
 use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 
-/// What [`convert`] reads, writes, and what the input does not say itself.
+/// Options of [`convert`].
 #[derive(Clone, Debug, Default)]
 pub struct ConvertOptions {
     /// A hair file or a motion cache.
     pub input: PathBuf,
     /// The file to write.
     pub output: PathBuf,
-    /// This frame alone; without it all of a motion, or the one frame of a groom.
+    /// Only this frame. By default all frames of a motion, or the single frame of a groom.
     pub frame: Option<u32>,
-    /// Segments into which every strand is walked; without it as the file has them.
+    /// Number of segments of each strand. By default as in the file.
     pub segments: Option<usize>,
-    /// Unit of the input, for a USD layer to name; refused where the input says otherwise.
+    /// Unit of the input, for the declaration in a USD layer. Refused if the input declares another.
     pub unit: Option<Unit>,
-    /// Whether z is up in the input, for a USD layer to name; refused where the input says otherwise.
+    /// Whether z is up in the input, for the declaration in a USD layer. Refused if the input declares otherwise.
     pub z_up: bool,
-    /// Prim path of the groom over which samples alone are laid.
+    /// Prim path of a groom, for a layer with only samples over it.
     pub layer: Option<String>,
-    /// Number of the first frame that is written on the time line of the output, in the place of the input's own.
+    /// Number of the first frame on the output's timeline, instead of the input's.
     pub first_frame: Option<i32>,
 }
 
-/// Reads hair of one format and writes it in another.
+/// Reads hair in one format and writes it in another.
 ///
 /// # Errors
-/// An input that cannot be read, an output that cannot be written or would take the input's place.
+/// An input that cannot be read, or an output that cannot be written or would overwrite the input.
 pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     check_output(options)?;
     let to_tools = exchange::is_usd(&options.output) || exchange::is_alembic(&options.output);

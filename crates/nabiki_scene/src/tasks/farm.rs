@@ -19,30 +19,30 @@ const TRIED: usize = 300;
 /// Strands that a shard has at the most unless a number of shards is given.
 const STRANDS_A_SHARD: usize = 100_000;
 
-/// Which job [`farm`] writes.
+/// Options of [`farm`].
 #[derive(Clone, Debug)]
 pub struct FarmOptions {
-    /// The engine that will run it.
+    /// The engine that runs the job.
     pub engine: Engine,
-    /// Into how many shards the strands are parted; as many as hold 100,000 each without it.
+    /// Number of shards of strands. By default such that each has at most 100,000 strands.
     pub shards: Option<u32>,
-    /// Frames that one task draws.
+    /// Number of frames that one task draws.
     pub frames_a_task: u32,
-    /// Strands of the scene's to show; all without it.
+    /// Number of strands to show; all by default.
     pub strands: Option<usize>,
-    /// Changes to the scene file that make it this scene, `motion.time_step=0.05`.
+    /// Overrides that make the scene file this scene, such as `motion.time_step=0.05`.
     pub sets: Vec<String>,
     /// The job: a template (.yaml) or a script (.sh).
     pub output: PathBuf,
-    /// Folder for the results; beside the job, under the scene's name, without it.
+    /// Folder for the results. By default next to the job, with the scene's name.
     pub results: Option<PathBuf>,
 }
 
-/// Writes the job that simulates a scene in shards, joins them, draws the frames and codes the movie. The scene is built
-/// before, up to the strands of one shard, so that what can be refused is refused here and not on a hundred machines.
+/// Writes a job that simulates a scene in shards, joins them, draws the frames and encodes the movie. It first builds
+/// the scene for one shard, so that errors appear here and not on the farm.
 ///
 /// # Errors
-/// A scene that cannot be built or stepped, more shards than strands, a place that cannot be written.
+/// A scene that cannot be built or simulated, more shards than strands, or a place that cannot be written.
 pub fn farm(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     let (ending, what) = match options.engine {

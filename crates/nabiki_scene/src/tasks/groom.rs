@@ -1,4 +1,4 @@
-//! The hair of a scene, at rest.
+//! Writes the hair of a scene at rest.
 
 use std::path::Path;
 
@@ -12,11 +12,11 @@ use crate::place;
 use crate::scene::Scene;
 use crate::watch::Watch;
 
-/// Grows or imports the hair of a scene and writes it into a hair file; into a layer or archive with its points at rest
-/// under a name of their own, for programs that move it on.
+/// Grows or imports the hair of a scene and writes a hair file. A layer or archive also gets the points at rest as an
+/// attribute, for programs that move the hair further.
 ///
 /// # Errors
-/// A scene that cannot be built, a place or format that cannot be written.
+/// A scene that cannot be built, or a place or format that cannot be written.
 pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -> Result<()> {
     place::file(output)?;
     // Of no hair nothing is lost, but a name that no hair is written under is refused.

@@ -1,4 +1,4 @@
-//! Shards of a motion, put together into the cache that one machine would have written.
+//! Joins the shards of a motion into the cache that one machine would have written.
 
 use std::path::{Path, PathBuf};
 
@@ -12,12 +12,12 @@ use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 use nabiki_io::shell;
 
-/// Writes, out of all shards of a motion in any order, the motion cache that [`simulate`](super::simulate()) writes of
-/// the whole, byte for byte.
+/// Joins all shards of a motion, in any order, into the motion cache that [`simulate`](super::simulate()) writes for
+/// all strands, byte for byte.
 ///
 /// # Errors
-/// Files that are not the shards of one motion; a missing one, with the command that makes it; a place that cannot be
-/// written; cancelled by `watch`.
+/// Files that are not shards of one motion; a missing shard, with the command that makes it; a place that cannot be
+/// written; or cancelled by `watch`.
 pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<()> {
     place::cache(output, "choose another name", files)?;
     let mut pieces = sorted(files)?;

@@ -1,4 +1,4 @@
-//! A movie of pictures that are drawn already, here or on many machines.
+//! Encodes a movie from existing pictures.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,27 +13,28 @@ use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 use nabiki_io::shell::operand;
 
-/// What [`movie`] is made of.
+/// Options of [`movie`].
 #[derive(Clone, Debug, Default)]
 pub struct MovieOptions {
     /// Numbered PNG files: `0007.png`, `gust_0007.png`, or folders of them.
     pub frames: Vec<PathBuf>,
     /// The movie (.mp4).
     pub output: PathBuf,
-    /// The scene that they show, which then says how many there are, the frame rate and the quality; without it they
-    /// begin anywhere and are 24 a second.
+    /// The scene of the pictures. It determines their number, the frame rate and the quality. Without it, they may
+    /// start at any number, and play at 24 per second.
     pub scene: Option<Scene>,
-    /// Changes to the scene file that make it this scene, `motion.frames=40`.
+    /// Overrides that make the scene file this scene, such as `motion.frames=40`.
     pub sets: Vec<String>,
-    /// Strands of the scene's that they show, all without it: the command that draws a missing one says them.
+    /// Number of strands in the pictures, all by default, for the command that draws a missing picture.
     pub strands: Option<usize>,
 }
 
-/// Codes numbered pictures, without a gap, as a movie. Of PNG files of 16 bits it is, to the bit, the movie that
-/// [`run`](super::run()) makes of the same frames.
+/// Encodes numbered pictures, without gaps, as a movie. From 16-bit PNG files, the movie is the same, bit by bit, as
+/// that of [`run`](super::run()) for the same frames.
 ///
 /// # Errors
-/// Pictures that are missing, of different sizes, or transparent; a place that cannot be written; cancelled by `watch`.
+/// Pictures that are missing, of different sizes, or transparent; a place that cannot be written; or cancelled by
+/// `watch`.
 pub fn movie(options: &MovieOptions, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     if !output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mp4")) {

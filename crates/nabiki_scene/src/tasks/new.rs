@@ -1,4 +1,4 @@
-//! A scene to begin with.
+//! Writes a scene to start from.
 
 use std::io::Write;
 use std::ops::Range;
@@ -30,23 +30,24 @@ const SKULL: f32 = 0.3;
 /// Clips that are named of many.
 const MOST_NAMED: usize = 6;
 
-/// What a [`new`] scene is about.
+/// Options of [`new`].
 #[derive(Clone, Debug, Default)]
 pub struct NewOptions {
-    /// The head's mesh; without it the built-in bust.
+    /// The head's mesh. By default the built-in bust.
     pub head: Option<PathBuf>,
-    /// Groups of the head's file to keep; all if empty.
+    /// Groups of the head's file to keep. If empty, all.
     pub groups: Vec<String>,
-    /// The hair's file; without it hair is grown.
+    /// The hair's file. By default, hair is grown.
     pub hair: Option<PathBuf>,
-    /// Whether a scene that is there already is replaced.
+    /// Whether to replace an existing scene.
     pub replace: bool,
 }
 
-/// Writes a commented scene that runs as it is, and says what it guessed.
+/// Writes a commented scene that runs unchanged, and reports its guesses.
 ///
 /// # Errors
-/// A file that cannot be read, a head without a skull, a name that does not end in .toml, a place that is taken or cannot be written.
+/// A file that cannot be read, a head without a skull, a name that does not end in .toml, or a place that is taken or
+/// cannot be written.
 pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<()> {
     if !options.replace && std::fs::symlink_metadata(path).is_ok() {
         let what = "is there already; choose another name, or replace it with --force";

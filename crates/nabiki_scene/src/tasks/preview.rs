@@ -1,4 +1,4 @@
-//! A few strands, at once, that move exactly as they will among all.
+//! A fast preview of a few strands, which move exactly as among all.
 
 use std::path::Path;
 
@@ -17,16 +17,17 @@ use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::Watch;
 
-/// Strands that a preview shows, or all where a scene has fewer, unless it is told how many.
+/// Default number of strands of a preview. A scene with fewer strands shows all.
 pub const PREVIEW_STRANDS: usize = 300;
 
 /// Longer side of a preview's frames (pixels).
 const LONGER_SIDE: u32 = 480;
 
-/// Draws some of a scene's strands, small and in the light of a [`Draft`], into `folder`; their motion goes into `cache`, too, if one is named.
+/// Draws some of a scene's strands, small and with the light of a [`Draft`], into `folder`. If `cache` is given, it
+/// also writes their motion there.
 ///
 /// # Errors
-/// As [`run`](super::run()).
+/// As for [`run`](super::run()).
 pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, watch: &mut dyn Watch) -> Result<()> {
     if let Some(cache) = cache {
         place::cache(cache, "choose another name", &scene.inputs())?;

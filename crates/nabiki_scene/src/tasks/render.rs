@@ -1,4 +1,4 @@
-//! A scene's pictures, moved by its own simulation or by a motion cache.
+//! Draws a scene's pictures, from a simulation or a motion cache.
 
 use std::path::{Path, PathBuf};
 
@@ -18,27 +18,28 @@ use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 
-/// What [`render`] draws, and whence.
+/// Options of [`render`].
 #[derive(Clone, Debug, Default)]
 pub struct RenderOptions {
-    /// The motion cache, written from the same scene; without it the scene is simulated.
+    /// The motion cache of the same scene. Without it, the scene is simulated.
     pub motion: Option<PathBuf>,
-    /// Which pictures.
+    /// Which pictures to draw.
     pub pictures: Pictures,
 }
 
-/// Which pictures of a scene are drawn.
+/// Which pictures of a scene to draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pictures {
-    /// All, into what the scene asks for: a movie, a contact sheet, stills.
+    /// All, as the scene asks: a movie, a contact sheet, stills.
     #[default]
     All,
     /// One frame, as a PNG, and as OpenEXR if the scene asks for it.
     One(u32),
-    /// The frames from the first through the second, as numbered stills: PNG files, and OpenEXR files if the scene asks
-    /// for them; these alone if it wants no movie. Each is, to the bit, as in any other division of the film.
+    /// The frames from the first to the second, both included, as numbered stills: PNG files, and OpenEXR files if the
+    /// scene asks for them (only these if it wants no movie). Each picture is the same, bit by bit, however the frames
+    /// are divided.
     Run(u32, u32),
-    /// One frame from all around: so many pictures, a full turn, as stills and as a movie, as the scene asks.
+    /// One frame from all sides: this many pictures of a full turn, as stills and as a movie, as the scene asks.
     Turntable {
         /// The frame.
         frame: u32,
@@ -48,7 +49,7 @@ pub enum Pictures {
 }
 
 impl Pictures {
-    /// The most pictures of a turntable: their views are all known before the first is drawn.
+    /// Largest number of pictures of a turntable. All views are computed before the first is drawn.
     pub const MOST_PICTURES: u32 = 100_000;
 
     /// Refuses frames that are not there.
@@ -76,7 +77,7 @@ impl Pictures {
 /// Draws all frames of a scene, or some, into `folder`.
 ///
 /// # Errors
-/// As [`run`](super::run()); a cache of another motion, a frame that the scene does not reach.
+/// As for [`run`](super::run()); a cache of another motion, or a frame beyond the end of the scene.
 pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path, watch: &mut dyn Watch) -> Result<()> {
     options.pictures.check(scene.motion.frames)?;
     let mut scene = scene;
@@ -188,11 +189,11 @@ fn turntable(
     Ok(file.into_iter().chain(stills.map(|stills| stills.folder().to_owned())).collect())
 }
 
-/// Draws one frame of a scene that is built, as light. [`ToneMapping`] brings it into the range of a screen. `layers`: with what
-/// compositors want of the hair, be it that the scene does not ask for it.
+/// Draws one frame of a built scene, as linear light. [`ToneMapping`] maps it to the range of a screen. `layers` adds
+/// the layers that compositors need for hair, even if the scene does not ask for them.
 ///
 /// # Errors
-/// As [`render`].
+/// As for [`render`].
 pub fn draw(built: &BuiltScene, frame: u32, layers: bool, watch: &mut dyn Watch) -> Result<Frame> {
     let last = built.frames();
     if frame > last {

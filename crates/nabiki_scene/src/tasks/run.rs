@@ -1,4 +1,4 @@
-//! Groom, simulate, draw.
+//! Grooms, simulates and draws a scene.
 
 use std::path::Path;
 
@@ -15,11 +15,11 @@ use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::Watch;
 
-/// Moves the hair of a scene and draws all its frames into `folder`: a movie, a contact sheet and whatever else the
-/// scene asks for; beside them, moving hair for other tools.
+/// Simulates a scene and draws all frames into `folder`: a movie, a contact sheet and the other outputs of the scene.
+/// It also writes the requested files of moving hair.
 ///
 /// # Errors
-/// A scene that cannot be built or stepped, a place that cannot be written; cancelled by `watch`.
+/// A scene that cannot be built or simulated, a place that cannot be written, or cancelled by `watch`.
 pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, watch: &mut dyn Watch) -> Result<()> {
     exports.check()?;
     let files: Vec<&Path> = exports.files.iter().map(|file| file.as_path()).collect();

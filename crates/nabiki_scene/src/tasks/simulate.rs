@@ -1,4 +1,4 @@
-//! The motion of a scene's hair, without pictures.
+//! Simulates a scene without pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -17,42 +17,42 @@ use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 
-/// What [`simulate`] writes, and how.
+/// Options of [`simulate`].
 #[derive(Clone, Debug)]
 pub struct SimulateOptions {
     /// A motion cache (.nabiki), or moving hair for other tools (.usd, .usda, .usdc, .abc).
     pub output: PathBuf,
-    /// Moving hair for other tools beside it.
+    /// Additional files of moving hair for other tools.
     pub exports: ExportOptions,
-    /// Which of the twins steps.
+    /// The stepper.
     pub twin: Twin,
-    /// One shard of the strands alone, into a motion cache for [`join`](super::join()).
+    /// Only one shard of the strands, as a motion cache for [`join`](super::join()).
     pub shard: Option<ShardOptions>,
 }
 
-/// Which shard is simulated.
+/// The shard to simulate.
 #[derive(Clone, Debug)]
 pub struct ShardOptions {
-    /// Which.
+    /// The shard.
     pub shard: Shard,
-    /// How the shell would be asked for it, without the shard and the file: told to whoever misses another one.
+    /// The command line for it, without shard and file, for messages about missing shards.
     pub command: String,
 }
 
 /// The two steppers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Twin {
-    /// f32, sixteen strands at a time, all cores.
+    /// f32, 16 strands at a time, all cores.
     #[default]
     Fast,
-    /// The specification: one segment at a time in f64.
+    /// The specification: one segment at a time, in f64.
     Reference,
 }
 
-/// Moves the hair of a scene and writes every frame.
+/// Simulates a scene and writes all frames.
 ///
 /// # Errors
-/// A scene that cannot be built or stepped, a place that cannot be written; cancelled by `watch`.
+/// A scene that cannot be built or simulated, a place that cannot be written, or cancelled by `watch`.
 pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &mut dyn Watch) -> Result<()> {
     let mut exports = options.exports.clone();
     let to_tools = exchange::is_usd(&options.output) || exchange::is_alembic(&options.output);

@@ -1,4 +1,4 @@
-//! Which wind makes the hair do this: a scene with wishes, and the scene that meets them.
+//! Which wind makes the hair do this? Solves wishes for a scene.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -16,22 +16,22 @@ use crate::solve::{Solved, WishFile};
 use crate::told::Told;
 use crate::watch::Watch;
 
-/// What [`solve`] reads and writes.
+/// Options of [`solve`].
 #[derive(Clone, Debug)]
 pub struct SolveOptions {
     /// The wish file.
     pub wishes: PathBuf,
     /// The scene to write.
     pub output: PathBuf,
-    /// Strands among which locks are looked for; more where wishes name others.
+    /// Number of strands in which to look for locks. Increased if wishes name others.
     pub strands: usize,
 }
 
-/// Finds settings under which the hair of a scene does what is wished for, and writes the scene with them.
+/// Finds settings with which the hair meets the wishes, and writes the scene with them.
 ///
 /// # Errors
-/// A scene that cannot be built or stepped, wishes that cannot be about it, a place that cannot be written; cancelled by
-/// `watch`.
+/// A scene that cannot be built or simulated, wishes that do not fit it, a place that cannot be written, or cancelled
+/// by `watch`.
 pub fn solve(scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) -> Result<()> {
     let file = WishFile::load(&options.wishes)?;
     let mut inputs = scene.inputs();
@@ -44,11 +44,11 @@ pub fn solve(scene: Scene, options: &SolveOptions, watch: &mut dyn Watch) -> Res
     Ok(())
 }
 
-/// The same without a file: the scene with the settings that were found, and how near they come. `strands`: among which
-/// locks are looked for; more where wishes name others.
+/// Like [`solve`], without files: returns the scene with the settings that were found, and how near they come.
+/// `strands` is the number of strands in which to look for locks; it increases if wishes name others.
 ///
 /// # Errors
-/// As [`solve`], but for places.
+/// As for [`solve`], except places.
 pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn Watch) -> Result<(Scene, Solved)> {
     let wishes = &file.wishes;
     let in_file = |refused: SettingError| Error::from(file.refusal(refused));

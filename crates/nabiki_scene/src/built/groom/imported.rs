@@ -14,16 +14,16 @@ use crate::root_ends;
 use crate::scene::{ImportedHair, RootEnd, resolved};
 use crate::seat;
 
-/// What there is to know of a hair file.
+/// An imported hair file.
 #[derive(Clone, Debug)]
 pub struct Imported {
-    /// How it lies in head space.
+    /// Its placement in head space.
     pub placement: Placement,
-    /// The file, and where its curves are in it.
+    /// The file, and its curves in that file.
     pub curves: GroomCurves,
-    /// What it held.
+    /// The results of the import.
     pub report: ImportReport,
-    /// Its frames, of which the first is taken; 1 for hair that stands still.
+    /// Number of frames, of which the first is used; 1 for hair that does not move.
     pub frames: usize,
     /// When the shot begins that it is of (s), where it says so.
     pub(crate) begins: Option<f64>,
