@@ -1,4 +1,4 @@
-//! From space to pixels: the camera of one frame, and the framing of many.
+//! The camera of a frame, from space to pixels, and the framing of a movie.
 
 use glam::{Mat3, Quat, Vec3};
 use nabiki::{Ellipsoid, Mesh, Pose, Strands};
@@ -8,10 +8,10 @@ use crate::settings::{Camera, Projection};
 
 pub use crate::settings::NEAR;
 
-/// The box about everything that should be in the picture (head space, cm).
+/// The bounding box of everything that should be in the picture (head space, cm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// Least coordinates; above `high` while nothing is included.
+    /// Smallest coordinates; above `high` while the box is empty.
     pub low: Vec3,
     /// Largest coordinates.
     pub high: Vec3,
@@ -24,7 +24,7 @@ impl Default for Bounds {
 }
 
 impl Bounds {
-    /// Grows the box to hold `point`; a point that is not finite is passed over.
+    /// Extends the box to include `point`. A point that is not finite is ignored.
     pub fn include(&mut self, point: Vec3) {
         if point.is_finite() {
             self.low = self.low.min(point);
@@ -32,19 +32,18 @@ impl Bounds {
         }
     }
 
-    /// Grows the box to hold every strand: called for each frame, it frames a whole movie.
+    /// Extends the box to include all strands. Call it for each frame to frame a complete movie.
     pub fn include_strands(&mut self, strands: &Strands) {
         strands.points().iter().for_each(|&p| self.include(p));
     }
 
-    /// Grows the box to hold the head proper: what of the `mesh` lies in 1.5 times its `ellipsoid`, without
-    /// shoulders.
+    /// Extends the box to include the head without shoulders: the part of `mesh` within 1.5 times its `ellipsoid`.
     pub fn include_head(&mut self, mesh: &Mesh, ellipsoid: &Ellipsoid) {
         let near = ellipsoid.scaled(1.5);
         mesh.positions.iter().filter(|&&p| near.value(p) <= 0.0).for_each(|&p| self.include(p));
     }
 
-    /// Whether nothing is included yet.
+    /// Whether the box is empty.
     pub fn is_empty(&self) -> bool {
         self.low.x > self.high.x
     }
@@ -70,14 +69,14 @@ impl Bounds {
     }
 }
 
-/// The camera of one frame: where it stands and what a pixel sees. It is given in the world; a head that stands still is
-/// the world.
+/// The camera of one frame: its position, and the projection to pixels. It is given in the world; if the head does not
+/// move, head space is the world.
 ///
 /// Pixel coordinates run right and down from the picture's upper left corner; the centre of the first pixel is
 /// (0.5, 0.5). Depth is the distance along the axis of view (cm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// The eye (cm). For an orthographic view it lies well before everything.
+    /// The eye (cm). For an orthographic view it is well in front of everything.
     pub eye: Vec3,
     /// Unit vector to the picture's right.
     pub right: Vec3,
@@ -91,11 +90,11 @@ pub struct View {
     pub scale: f32,
     /// Width and height of the picture (pixels).
     pub size: [u32; 2],
-    /// The lens, for perspective; none is a pinhole.
+    /// The lens, for perspective; `None` is a pinhole.
     pub lens: Option<Lens>,
 }
 
-/// The direction at `azimuth` and `elevation` (degrees): (0, 0) is +x, before the face; azimuth 90 is +z.
+/// The direction at `azimuth` and `elevation` (degrees): (0, 0) is +x, in front of the face; azimuth 90 is +z.
 pub fn direction(azimuth: f32, elevation: f32) -> Vec3 {
     let (sin_a, cos_a) = azimuth.to_radians().sin_cos();
     let (sin_e, cos_e) = elevation.to_radians().sin_cos();
@@ -103,8 +102,8 @@ pub fn direction(azimuth: f32, elevation: f32) -> Vec3 {
 }
 
 impl View {
-    /// The view of `camera` for a picture of `size` pixels. Whatever of distance, height and target the camera leaves
-    /// open is chosen so that `bounds` fits; empty bounds count as a head.
+    /// The view of `camera` for a picture of `size` pixels. If the camera does not set distance, height or target, they
+    /// are chosen so that `bounds` fits. Empty bounds count as a head.
     pub fn new(camera: &Camera, size: [u32; 2], bounds: &Bounds) -> Self {
         let bounds = bounds.framed();
         let outward = direction(camera.azimuth, camera.elevation);
@@ -151,8 +150,8 @@ impl View {
         }
     }
 
-    /// The views of a camera that goes once round its target in `views` even steps, from where it is: always as far away as the step
-    /// that needs most room for `bounds`.
+    /// The views of a camera that orbits its target once in `views` equal steps, starting at its position. The distance
+    /// is constant: that of the step that needs most room for `bounds`.
     pub fn around(camera: &Camera, size: [u32; 2], bounds: &Bounds, views: u32) -> Vec<Self> {
         let step = |k: u32| Camera { azimuth: camera.azimuth + 360.0 * k as f32 / views as f32, to: None, ..*camera };
         let free: Vec<Self> = (0..views).map(|k| Self::new(&step(k), size, bounds)).collect();
@@ -165,7 +164,7 @@ impl View {
         free.into_iter().map(|view| Self { eye: target - view.forward * farthest, scale, ..view }).collect()
     }
 
-    /// The same camera as a head in this pose sees it.
+    /// The camera in the space of a head with this pose.
     pub fn in_head(&self, pose: &Pose) -> Self {
         if *pose == Pose::STILL {
             return *self;
@@ -193,7 +192,7 @@ impl View {
         }
     }
 
-    /// Pixel coordinates and depth (cm) of a point. Meaningless where depth is below [`NEAR`].
+    /// Pixel coordinates and depth (cm) of a point. Invalid if the depth is below [`NEAR`].
     #[inline]
     pub fn project(&self, p: Vec3) -> Vec3 {
         let p = p - self.eye;
@@ -226,7 +225,7 @@ impl View {
         }
     }
 
-    /// Pixels that 1 cm across the axis of view covers at a depth (cm).
+    /// Length in pixels of 1 cm perpendicular to the axis of view, at a depth (cm).
     #[inline]
     pub fn pixels_per_cm(&self, depth: f32) -> f32 {
         match self.projection {
@@ -244,8 +243,8 @@ impl View {
         }
     }
 
-    /// The part of a vector that the picture shows, for arrows: right and down, of length 1 where the vector lies in
-    /// the picture plane.
+    /// The projection of a vector to the picture, for arrows: right and down, of length 1 for a unit vector in the
+    /// picture plane.
     pub fn in_picture(&self, v: Vec3) -> [f32; 2] {
         let v = v.normalize_or_zero();
         [v.dot(self.right), -v.dot(self.up)]

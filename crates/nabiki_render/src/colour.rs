@@ -1,4 +1,4 @@
-//! The colour of hair: from pigment to absorption, and what colour a mass of it shows.
+//! The colour of hair: from pigment to absorption, and the colour of a mass of hair.
 
 use crate::settings::{HairColour, HairLook};
 use crate::tone_mapping::linear_from_srgb;
@@ -8,7 +8,7 @@ use crate::tone_mapping::linear_from_srgb;
 const EUMELANIN: [f32; 3] = [0.419, 0.697, 1.37];
 const PHEOMELANIN: [f32; 3] = [0.187, 0.4, 1.05];
 
-/// Absorption of the fibre's inside (per fibre radius; red, green, blue).
+/// Absorption inside the fibre (per fibre radius; red, green, blue).
 pub fn absorption(look: &HairLook) -> [f32; 3] {
     match (look.colour.melanin(), look.colour) {
         (Some([eumelanin, pheomelanin]), _) => {
@@ -22,14 +22,14 @@ pub fn absorption(look: &HairLook) -> [f32; 3] {
     }
 }
 
-/// Colour (linear) that a thick mass of hair with this absorption shows in even light: the inverse of the fit of
-/// Chiang et al. (2016), equation 9.
+/// Colour (linear) of a thick mass of hair with this absorption in even light: the inverse of the fit of Chiang et al.
+/// (2016), equation 9.
 pub fn albedo(absorption: [f32; 3], azimuthal_roughness: f32) -> [f32; 3] {
     let depth = albedo_depth(azimuthal_roughness);
     absorption.map(|a| (-a.sqrt() * depth).exp())
 }
 
-/// Colour (linear red, green, blue) that a thick mass of this hair shows in even light.
+/// Colour (linear red, green, blue) of a thick mass of this hair in even light.
 pub fn of_mass(look: &HairLook) -> [f32; 3] {
     albedo(absorption(look), look.azimuthal_roughness)
 }
@@ -38,12 +38,12 @@ fn albedo_depth(b: f32) -> f32 {
     5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))))
 }
 
-/// How light a colour is: its luminance, by the weights of Rec. 709.
+/// The luminance of a colour, with the weights of Rec. 709.
 pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
-/// A number in 0..1 that belongs to a strand and a purpose, evenly spread (a mix of bits by multiplication and shift).
+/// A uniform random number in 0..1 for a strand and a purpose (a hash by multiplication and shift).
 pub fn of_strand(strand: u32, purpose: u32) -> f32 {
     let mut h = strand.wrapping_mul(0x9E37_79B1) ^ purpose.wrapping_mul(0x85EB_CA77);
     h = (h ^ h >> 16).wrapping_mul(0x7FEB_352D);

@@ -1,24 +1,24 @@
-//! What a preview draws less finely than the final picture.
+//! The lower quality of previews.
 
 use glam::Vec3;
 
 use crate::raster::TILE;
 use crate::skin::{SkinPixel, SkinView};
 
-/// How finely light is found in a draft, whose few strands stand for many. Where hair and skin are, how they hide each other and how
-/// they are shaded is that of the final picture.
+/// The quality of light in a draft, whose few strands stand for many. Geometry, occlusion and shading of hair and skin
+/// are those of the final picture.
 ///
-/// Each strand takes the light of those that it stands for, spread over the room between the strands shown: so hair is as deep, and
-/// as dark within, as the final's. Cells as wide as that room lose nothing and cost a fraction of the final's. What reaches skin
-/// through hair is found once for each 2 x 2 pixels. Nothing is kept from frame to frame that the hair's motion changes, so no light
-/// jumps.
+/// Each strand absorbs as much light as the strands that it stands for, spread over the space between the strands
+/// shown. Hair is therefore as deep, and as dark inside, as in the final picture. Cells as wide as that space lose no
+/// detail and take a fraction of the time. The light that reaches skin through hair is computed once per 2 x 2 pixels.
+/// Nothing that the hair's motion changes is kept between frames, so light does not flicker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draft {
-    /// As much light as so many strands of its thickness each strand takes (at least 1).
+    /// Number of strands whose light one strand absorbs (at least 1).
     pub stands_for: f32,
-    /// Least side of the cells that the sky's light, and that of skin, goes through (cm). The final's are 0.55.
+    /// Smallest side of the cells for light from sky and skin (cm); 0.55 in the final picture.
     pub sky_cell: f32,
-    /// Least side of the cells of a lamp's map of the hair in its way (cm). The final's are 0.05.
+    /// Smallest side of the cells of a lamp's shadow map of hair (cm); 0.05 in the final picture.
     pub lamp_cell: f32,
 }
 
@@ -30,8 +30,8 @@ impl Draft {
     /// would lie in its own shadow. Fitted.
     const TAKEN: f32 = 0.6;
 
-    /// For strands of which each stands for `share`, and is drawn `thicker` by so much than one of them. Cells are as much wider than
-    /// the final's as strands are farther apart, up to a limit.
+    /// The draft for strands that each stand for `share` strands and are drawn `thicker` times as thick as one. Up to a
+    /// limit, cells are wider than in the final picture by the ratio of the distances between strands.
     pub fn new(share: f32, thicker: f32) -> Self {
         let apart = share.max(1.0).sqrt();
         Self {

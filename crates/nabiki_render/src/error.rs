@@ -1,16 +1,16 @@
-//! What can go wrong while drawing and writing pictures.
+//! Errors of drawing and writing pictures.
 
 use std::path::{Path, PathBuf};
 
 use nabiki::SettingError;
 
-/// Why a picture could not be drawn or written. Its text is one line.
+/// Why a picture could not be drawn or written. It displays as one line.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
-    /// A setting of the scene's `[picture]` table is out of its range.
+    /// A setting of the scene's `[picture]` table is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// The strands or the head cannot be drawn: which one, and what is wrong with it.
+    /// The strands or the head cannot be drawn. Names the strand and the problem.
     #[error("{0}")]
     Geometry(String),
     /// A picture could not be read.

@@ -1,6 +1,6 @@
 //! A finished frame: linear light.
 
-/// Where nothing is, the depth layer holds this.
+/// The depth of empty pixels.
 pub const NO_DEPTH: f32 = f32::INFINITY;
 
 /// One picture in linear light, row after row from the top.
@@ -10,13 +10,13 @@ pub struct Frame {
     pub size: [u32; 2],
     /// Red, green, blue (linear, Rec. 709 primaries) and alpha, *premultiplied*: colour is already weighted by alpha.
     pub rgba: Vec<[f32; 4]>,
-    /// Depth of the nearest thing that shows in the pixel (cm along the axis of view), [`NO_DEPTH`] where nothing does.
+    /// Depth of the nearest visible object in the pixel (cm along the axis of view), or [`NO_DEPTH`].
     pub depth: Vec<f32>,
     /// Layers for compositing; empty unless asked for.
     pub layers: Vec<Layer>,
 }
 
-/// What a compositor may want of one pixel, each weighted by the share of the pixel that it belongs to (premultiplied).
+/// The compositing data of one pixel, weighted by the share of the pixel that it applies to (premultiplied).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Layer {
     /// Direction of the hair from root to tip (unit vector in head space), times `hair`.

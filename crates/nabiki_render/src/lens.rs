@@ -1,26 +1,28 @@
-//! The lens of a camera: a thin lens, whose points see what is in focus at one place and all else apart.
+//! The lens of a camera: a thin lens. Seen through all its points, objects in focus are at the same place, and others
+//! are apart.
 //!
-//! Seen through the point o of the lens (cm, from its middle), what lies at depth z moves on the picture by `scale` o (1 / F - 1 / z), where
-//! F is the depth that is sharp: the circle of confusion is the lens itself, that much smaller. Straight lines stay straight.
+//! Seen through the point o of the lens (cm, from its middle), an object at depth z moves on the picture by `scale` o
+//! (1 / F - 1 / z), where F is the depth in focus. The circle of confusion is the lens scaled by that factor. Straight
+//! lines stay straight.
 
 use crate::settings::Camera;
 
 /// Height of the picture on the sensor (cm): that of a 35 mm camera, by which photographers know their lenses.
 const SENSOR_HEIGHT: f32 = 2.4;
 
-/// A thin lens, and the point of it that is looked through.
+/// A thin lens, and a point on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Diameter (cm).
     pub diameter: f32,
-    /// Depth of what is sharp (cm along the axis of view); none where it is the near side of the head.
+    /// Depth in focus (cm along the axis of view); `None` is the near side of the head.
     pub focus: Option<f32>,
-    /// The point that is looked through, right and up from the middle (radii of the lens).
+    /// The point of the lens, right and up from the middle (radii of the lens).
     pub through: [f32; 2],
 }
 
 impl Lens {
-    /// That of a scene's camera; none of a pinhole.
+    /// The lens of a scene's camera; `None` for a pinhole.
     pub fn of(camera: &Camera) -> Option<Self> {
         let focal_length = 0.5 * SENSOR_HEIGHT / (0.5 * camera.fov.to_radians()).tan();
         let diameter = focal_length / camera.f_stop?;

@@ -15,9 +15,9 @@
 //! # Ok::<(), nabiki_render::RenderError>(())
 //! ```
 //!
-//! Space and units are those of [`nabiki`]: head space, y up, face toward +x, centimetres; a [`Moment`] says where the head is
-//! in the world, in which the camera stands. Angles in settings are
-//! degrees. Light is linear, with Rec. 709 primaries.
+//! Spaces and units are those of [`nabiki`]: head space, y up, face toward +x, centimetres. A [`Moment`] has the pose
+//! of the head in the world, where the camera is. Angles in settings are in degrees. Light is linear, with Rec. 709
+//! primaries.
 
 #![deny(unsafe_code)]
 

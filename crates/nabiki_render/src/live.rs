@@ -1,4 +1,5 @@
-//! What a live view draws with, so that its hair looks like the picture's: the same fibre as plain numbers, the same lamps.
+//! Data for a live view whose hair looks like that of the final picture: the fibre model as plain numbers, and the
+//! lamps.
 
 use crate::light::fibre::{Fibre, Row};
 use crate::light::shade;
@@ -9,35 +10,38 @@ pub use crate::light::fibre::{COLUMNS, GRADES, ROWS};
 pub use crate::light::lamps::{Lamp, lamps, zenith};
 pub use crate::light::sky::{Carry, Direction, LENGTHS};
 
-/// Share of the sky's light that each scattering in hair keeps on its way.
+/// Share of the sky's light that continues in its direction at each scattering in hair.
 pub const SKY_KEPT: f32 = shade::SKY_KEPT;
-/// Of the light that a fibre lets through, the share that goes on by other ways than straight from the lamp.
+/// Share of the light transmitted by a fibre that continues on other paths than straight from the lamp.
 pub const STRAYS: f32 = shade::STRAYS;
-/// Share of light scattered forward by hair that falls onto skin behind.
+/// Share of the light scattered forward by hair that reaches skin behind it.
 pub const ON_SKIN: f32 = crate::skin::ON_SKIN;
 /// Largest deviation of a strand's tilt (rad), for a variation of 1.
 pub const TILT_SPREAD: f32 = shade::TILT_SPREAD;
 
-/// The fibre of a look of hair, for shaders. All grades of pigment follow one another, from the least to the most.
+/// The fibre model of a look of hair, for shaders. The grades of pigment follow one another, from the least to the
+/// most.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FibreTables {
-    /// For each grade [`ROWS`] x ([`COLUMNS`] + 1) entries, by the sine of the eye's inclination and the azimuth 0..pi between
-    /// lamp and eye: R (one number), TT and TRT (red, green, blue each), and a 0.
+    /// For each grade, [`ROWS`] x ([`COLUMNS`] + 1) entries by the sine of the eye's inclination and the azimuth 0..pi
+    /// between lamp and eye: R (one number), TT and TRT (red, green, blue each), and a 0.
     pub lobes: Vec<[f32; 8]>,
-    /// For each grade [`ROWS`] entries: the part of even light that goes on forward, that which goes back, and all further
-    /// bounces (red, green, blue each), with a 0 after each three.
+    /// For each grade, [`ROWS`] entries: the share of even light that continues forward, the share that returns, and
+    /// all further bounces (red, green, blue each), with a 0 after each three.
     pub rows: Vec<[f32; 12]>,
     /// Variances along the hair of R, TT and TRT (rad^2).
     pub variances: [f32; 3],
-    /// For each grade, of many such hairs: the parts that each passes on and sends back, what hair without end sends back, and by how
-    /// much less light arrives for each hair before a place (red, green, blue each), with a 0 after each three.
+    /// For each grade, data of a mass of such hair: the shares that each fibre transmits and returns, the share that
+    /// infinitely deep hair returns, and how much less light arrives for each hair in front (red, green, blue each),
+    /// with a 0 after each three.
     pub mediums: Vec<[f32; 16]>,
-    /// Tilt of the scales (rad): R turns by twice that toward the root, TT by once and TRT by three times toward the tip.
+    /// Tilt of the scales (rad). R turns by twice that toward the root; toward the tip, TT turns by once and TRT by
+    /// three times that.
     pub tilt: f32,
 }
 
 impl FibreTables {
-    /// The tables of a look.
+    /// The tables for a look.
     pub fn new(look: &HairLook) -> Self {
         let fibre = Fibre::new(look);
         let flat = |row: &Row| {
@@ -60,7 +64,7 @@ impl FibreTables {
         }
     }
 
-    /// By how much less light arrives for each hair before a place, those of middling pigment (red, green, blue).
+    /// How much less light arrives for each hair in front, for hair with medium pigment (red, green, blue).
     pub fn decay(&self) -> [f32; 3] {
         let [.., r, g, b, _] = self.mediums[GRADES / 2];
         [r, g, b]

@@ -1,4 +1,4 @@
-//! One frame, from strands to light.
+//! Draws a frame, from strands to light.
 
 mod blocks;
 mod compose;
@@ -42,8 +42,8 @@ const OFF_SKIN: f32 = 0.15;
 /// How far a piece may leave traces beyond its own width (pixels): a cell, and its overhang.
 const MARGIN: f32 = 1.25;
 
-/// Draws frames of strands on a head, among bodies. It keeps its working memory from frame to frame, and what does not
-/// change while camera, lamps, head and bodies stand still.
+/// Draws frames of strands on a head, with other bodies. It keeps its working memory between frames, and everything
+/// that does not change while camera, lamps, head and bodies do not move.
 pub struct Renderer {
     picture: Picture,
     layers: bool,
@@ -110,10 +110,10 @@ impl Still {
 }
 
 impl Renderer {
-    /// For the settings of a scene and the head of its character (head space, cm).
+    /// A renderer for the settings of a scene and its head (head space, cm).
     ///
     /// # Errors
-    /// If a setting is out of range, or the head has a vertex that is not finite or a triangle without vertices.
+    /// If a setting is out of range, a vertex of the head is not finite, or a triangle has an invalid index.
     pub fn new(picture: &Picture, head: &Mesh) -> Result<Self, RenderError> {
         picture.check()?;
         check_mesh(head, "the head")?;
@@ -152,7 +152,8 @@ impl Renderer {
         })
     }
 
-    /// Bytes of memory that it takes at least to draw so many strands as a scene's settings say. `layers`: with those of its frames.
+    /// The least memory (bytes) for drawing this many strands with these settings. `layers` includes the layers of
+    /// frames.
     pub fn least_bytes(picture: &Picture, strands: usize, layers: bool) -> u64 {
         let pixels = picture.size.iter().map(|&side| u64::from(side)).product::<u64>();
         let layers = if layers { size_of::<Layer>() } else { 0 };
@@ -162,8 +163,8 @@ impl Renderer {
         pixels * pixel as u64 + strands as u64 * strand as u64
     }
 
-    /// Draws the face of the head whose mesh was given, if it has one and `picture.head.face` is wished for. A lens that is given no
-    /// distance is focused on it.
+    /// Draws the face of the head whose mesh was given, if it has one and `picture.head.face` is set. A lens without a
+    /// focus distance is focused on this head.
     pub fn with_face(mut self, head: &Head) -> Self {
         self.face = head.is_builtin && self.picture.head.face;
         self.subject = Subject(head.ellipsoid);
@@ -171,11 +172,11 @@ impl Renderer {
         self
     }
 
-    /// Draws these bodies as well, lit as the head is, each in its colour. They hide hair and throw shadows as the head does; every
-    /// frame says where they are.
+    /// Draws these bodies as well, lit like the head, each in its colour. They hide hair and cast shadows like the
+    /// head. Every frame gives their poses.
     ///
     /// # Errors
-    /// As [`new`](Self::new), of a body's mesh.
+    /// As for [`new`](Self::new), about a body's mesh.
     pub fn with_bodies(mut self, bodies: Vec<DrawnBody>) -> Result<Self, RenderError> {
         for (i, body) in bodies.iter().enumerate() {
             check_mesh(&body.mesh, &format!("body {i}"))?;
@@ -188,13 +189,13 @@ impl Renderer {
         Ok(self)
     }
 
-    /// Fills the frames' layers of hair direction and motion as well (coverage only).
+    /// Also fills the layers of hair direction and motion in frames (only with coverage antialiasing).
     pub fn with_layers(mut self) -> Self {
         self.layers = true;
         self
     }
 
-    /// Draws less finely, and faster: for previews.
+    /// Draws with lower quality and faster, for previews.
     pub fn drafted(mut self, draft: Draft) -> Self {
         self.sky_map.coarsen(draft.sky_cell);
         self.draft = Some(draft);
@@ -202,7 +203,7 @@ impl Renderer {
         self
     }
 
-    /// The settings it draws with.
+    /// The settings.
     pub fn picture(&self) -> &Picture {
         &self.picture
     }
@@ -212,13 +213,14 @@ impl Renderer {
         &self.timing
     }
 
-    /// Draws one frame as a camera does whose shutter closes at it and opened `picture.shutter` of a frame earlier. Blur costs
-    /// little more than a sharp frame, however fast the hair; a head that moves on the picture costs as much as it moves far. Where the
-    /// view has a lens, the frame is the mean of what its points see.
+    /// Draws one frame like a camera whose shutter closes at this frame and opened `picture.shutter` of a frame
+    /// earlier. For hair, motion blur takes little more time than a sharp frame, however fast it moves. For a head, the
+    /// time grows with its movement on the picture. If the view has a lens, the frame is the mean of the pictures
+    /// through its points.
     ///
     /// # Errors
-    /// If a point of a strand is not finite: which one. If the frame before has not the same strands. If there is not one pose for
-    /// each body.
+    /// If a point of a strand is not finite (names the strand), the previous frame has other strands, or the number of
+    /// poses is not that of the bodies.
     pub fn draw(&mut self, frame: &FrameToDraw) -> Result<Frame, RenderError> {
         for moment in [Some(&frame.now), frame.before.as_ref()].into_iter().flatten() {
             let (given, bodies) = (moment.bodies.len(), self.bodies.len());

@@ -1,4 +1,4 @@
-//! Hair, head and camera while the shutter is open: where they are between two frames, and how far each point moves.
+//! Hair, head and camera while the shutter is open: their positions between two frames, and how far each point moves.
 
 use std::borrow::Cow;
 
@@ -14,13 +14,13 @@ use crate::raster::CELLS;
 /// Strands handed to one task at a time.
 const CHUNK: usize = 256;
 
-/// Hair between two frames: `part` (0..1) of the way from `a` to `b`.
+/// Hair between two frames, at `part` (0..1) of the way from `a` to `b`.
 ///
-/// The *directions* of the segments are interpolated, not the points: a strand that swings keeps its length and
-/// passes along its arc.
+/// Interpolates the *directions* of the segments instead of the points. A strand that swings therefore keeps its length
+/// and moves along an arc.
 ///
 /// # Errors
-/// If the two have not the same strands.
+/// If the strands of the two do not match.
 pub fn between(a: &Strands, b: &Strands, part: f32) -> Result<Strands, RenderError> {
     if a.starts() != b.starts() {
         return Err(RenderError::Geometry(format!(

@@ -1,23 +1,23 @@
-//! Where a frame's time goes.
+//! The time of the stages of drawing.
 
 use std::time::{Duration, Instant};
 
-/// The stages of a frame, in their order.
+/// The stages of a frame, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Curves through the strands' points.
     Curves,
-    /// The head's pixels and its shadows, where they are not known from the frame before.
+    /// The head's pixels and shadows, unless they are known from the previous frame.
     Head,
-    /// From space to the picture.
+    /// Projection to the picture.
     Projection,
-    /// What stands in the way of lamps and sky.
+    /// Occlusion of lamps and sky.
     Occlusion,
-    /// Light of hair and skin.
+    /// Shading of hair and skin.
     Shading,
     /// Sorting by depth and into tiles.
     Sorting,
-    /// Shares of pixels.
+    /// Coverage of pixels.
     Pixels,
 }
 

@@ -1,4 +1,4 @@
-//! From linear light to display values: exposure, tone curve, sRGB.
+//! Conversion of linear light to display values: exposure, tone curve, sRGB.
 
 use rayon::prelude::*;
 
@@ -19,10 +19,11 @@ pub fn linear_from_srgb(x: f32) -> f32 {
 const KNEE: f32 = 0.5;
 
 impl ToneCurve {
-    /// Display light (0..1, linear) of scene light: red, green and blue.
+    /// Display light (0..1, linear) for scene light: red, green and blue.
     ///
-    /// The filmic curve bends the strongest of them and raises the shares that the others have of it to a power below 1, so that
-    /// what is brighter goes to white by way of its own hue: a curve of its own for each turns red into yellow on that way.
+    /// The filmic curve is applied to the strongest channel, and the ratios of the others to it are raised to a power
+    /// below 1. Bright colours therefore become white without a change of hue. A separate curve per channel would turn
+    /// red into yellow on the way.
     #[inline]
     pub fn display(self, light: [f32; 3]) -> [f32; 3] {
         if self == Self::Linear {
@@ -36,7 +37,7 @@ impl ToneCurve {
         light.map(|x| shown * share(x, strongest).powf(shown / strongest))
     }
 
-    /// Scene light that is displayed as `shown` (0..1, linear); just below white at most.
+    /// Scene light that is displayed as `shown` (0..1, linear), at most just below white.
     pub fn scene(self, shown: [f32; 3]) -> [f32; 3] {
         let strongest_shown = strongest(shown);
         if self == Self::Linear || strongest_shown <= KNEE {
@@ -61,7 +62,7 @@ fn share(x: f32, strongest: f32) -> f32 {
 /// white, and 8 bit values everywhere.
 const STEPS: usize = 1 << 14;
 
-/// Turns linear frames into display values: exposure, tone curve, alpha, sRGB.
+/// Converts linear frames to display values: exposure, tone curve, alpha, sRGB.
 pub struct ToneMapping {
     gain: f32,
     curve: ToneCurve,
@@ -69,7 +70,7 @@ pub struct ToneMapping {
 }
 
 impl ToneMapping {
-    /// For the exposure and tone curve of `picture`.
+    /// The conversion with the exposure and tone curve of `picture`.
     pub fn new(picture: &Picture) -> Self {
         // Indexed by the square root of the light, which spends the table's steps where sRGB is steep.
         let table = (0..=STEPS + 1).map(|i| srgb_from_linear((i as f32 / STEPS as f32).powi(2))).collect();
@@ -93,8 +94,7 @@ impl ToneMapping {
         [r, g, b, a]
     }
 
-    /// 8 bit sRGB with *straight* alpha, four bytes a pixel. Colours between two steps become one or the other from pixel to pixel, as
-    /// often as they are near it, so that a gradient shows no bands.
+    /// 8-bit sRGB with *straight* alpha, four bytes per pixel. Values are dithered, so that gradients show no bands.
     pub fn rgba8(&self, frame: &Frame) -> Vec<u8> {
         let width = frame.size[0].max(1) as usize;
         let mut bytes = vec![0; 4 * frame.rgba.len()];
@@ -109,7 +109,7 @@ impl ToneMapping {
         bytes
     }
 
-    /// 16 bit sRGB with *straight* alpha, four values a pixel.
+    /// 16-bit sRGB with *straight* alpha, four values per pixel.
     pub fn rgba16(&self, frame: &Frame) -> Vec<u16> {
         let mut values = vec![0; 4 * frame.rgba.len()];
         values.par_chunks_mut(4 * 1024).zip(frame.rgba.par_chunks(1024)).for_each(|(out, pixels)| {

@@ -1,11 +1,11 @@
-//! A small 8 bit picture to paste thumbnails and draw antialiased strokes and captions on.
+//! A small 8-bit picture for thumbnails, antialiased strokes and captions.
 
 use std::path::Path;
 
 use super::{font, png};
 use crate::RenderError;
 
-/// An opaque sRGB picture, three bytes a pixel. Coordinates run right and down in pixels.
+/// An opaque sRGB picture, three bytes per pixel. Coordinates run right and down in pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Canvas {
     size: [usize; 2],
@@ -28,7 +28,7 @@ impl Canvas {
         &self.rgb
     }
 
-    /// Puts an opaque picture with its upper left corner at `at`; what hangs over the edge is lost.
+    /// Pastes an opaque picture with its upper left corner at `at`. It is clipped at the edges.
     pub fn paste(&mut self, picture: &Canvas, at: [usize; 2]) {
         let width = picture.size[0].min(self.size[0].saturating_sub(at[0]));
         let height = picture.size[1].min(self.size[1].saturating_sub(at[1]));
@@ -87,7 +87,7 @@ impl Canvas {
         }
     }
 
-    /// An arrow from `from` to `to` with a head in proportion to its thickness.
+    /// Draws an arrow from `from` to `to`, with a head in proportion to its thickness.
     pub fn arrow(&mut self, from: [f32; 2], to: [f32; 2], width: f32, colour: [u8; 3]) {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);
@@ -108,15 +108,15 @@ impl Canvas {
         self.triangle(corners, colour);
     }
 
-    /// Writes a caption with its baseline's left end at `at` and capitals `height` pixels tall. It knows digits, small
-    /// letters, F and common signs; any other character is a space.
+    /// Writes a caption with the left end of its baseline at `at` and capitals of `height` pixels. Supported are
+    /// digits, small letters, F and common signs; other characters become spaces.
     pub fn caption(&mut self, text: &str, at: [f32; 2], height: f32, colour: [u8; 3]) {
         for stroke in font::strokes(text, at[0], at[1], height) {
             self.stroke(&stroke, thickness(height), colour);
         }
     }
 
-    /// The same with an edge about it, to be read on any picture.
+    /// Like [`caption`](Self::caption), with an outline, so that it is readable on any picture.
     pub fn label(&mut self, text: &str, at: [f32; 2], height: f32, colour: [u8; 3], edge: [u8; 3]) {
         for stroke in font::strokes(text, at[0], at[1], height) {
             self.stroke(&stroke, 3.0 * thickness(height), edge);
@@ -134,7 +134,7 @@ impl Canvas {
         png::write_rgb8(path, self.size.map(|s| s as u32), &self.rgb)
     }
 
-    /// The canvas made smaller by averaging whole blocks of display values.
+    /// Makes a canvas by averaging blocks of display values of a larger picture.
     pub fn shrunk(size: [usize; 2], rgba: &[u8], by: usize) -> Self {
         let small = size.map(|s| (s / by).max(1));
         let mut canvas = Self::new(small, [0; 3]);

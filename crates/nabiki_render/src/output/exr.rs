@@ -1,4 +1,4 @@
-//! OpenEXR files: linear light, alpha, depth, and what compositors want of the hair.
+//! OpenEXR files: linear light, alpha, depth, and hair layers for compositing.
 
 use std::io::{Cursor, Seek, Write};
 use std::path::Path;
@@ -14,12 +14,13 @@ use super::write_whole;
 use crate::RenderError;
 use crate::frame::{Frame, Layer as PixelLayer};
 
-/// Writes a frame as an OpenEXR file of 32 bit floats, losslessly compressed.
+/// Writes a frame as an OpenEXR file of 32-bit floats with lossless compression.
 ///
-/// Channels: `R`, `G`, `B` (linear, Rec. 709 primaries) *premultiplied* by `A`, as OpenEXR has it; `Z`, the depth along the axis of
-/// view (cm), infinite where nothing is. With the frame's layers also `hair.A` and `head.A`, the shares of the pixel that show
-/// hair and head; `direction.X`, `.Y`, `.Z`, the hair's direction from root to tip in head space, premultiplied by `hair.A`; `motion.X`,
-/// `.Y`, the movement of both while the shutter is open (pixels, right and down), premultiplied by `hair.A + head.A`.
+/// Channels: `R`, `G`, `B` (linear, Rec. 709 primaries), *premultiplied* by `A` as usual in OpenEXR; `Z`, the depth
+/// along the axis of view (cm), infinite for empty pixels. With the frame's layers also `hair.A` and `head.A`, the
+/// shares of the pixel that show hair and head; `direction.X`, `.Y`, `.Z`, the direction of the hair from root to tip
+/// in head space, premultiplied by `hair.A`; and `motion.X`, `.Y`, the movement of both while the shutter is open
+/// (pixels, right and down), premultiplied by `hair.A + head.A`.
 pub fn write(path: &Path, frame: &Frame) -> Result<(), RenderError> {
     write_whole(path, |file| into(file, frame).map_err(Into::into))
 }

@@ -19,27 +19,27 @@ pub struct Interval {
     pub vector: Vec3,
 }
 
-/// A field to be drawn.
+/// A field to draw.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldPlot {
-    /// The vectors of the uniform part and how long each holds.
+    /// The vectors of the uniform part and their intervals.
     pub intervals: Vec<Interval>,
-    /// The uniform part in every frame from 1 on, where it does not go straight from vector to vector; empty where it does.
+    /// The uniform part in every frame from 1 on, if it is not linear between vectors; otherwise empty.
     pub path: Vec<Vec3>,
-    /// The force around the head in one frame, where it differs from place to place.
+    /// The force around the head in one frame, if it varies in space.
     pub slices: Option<Slices>,
 }
 
-/// A force in the two planes through a point.
+/// A force in two planes through a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slices {
     /// The frame.
     pub frame: u32,
     /// Half the side of each slice (cm).
     pub reach: f32,
-    /// Half axes of the ellipsoid about the point, which is drawn as an outline (cm).
+    /// Half axes of the ellipsoid around the point, which is drawn as an outline (cm).
     pub half_axes: Vec3,
-    /// Places from the point (cm) and forces in the yz plane.
+    /// Positions relative to the point (cm) and forces, in the yz plane.
     pub yz: Vec<[Vec3; 2]>,
     /// The same in the zx plane.
     pub zx: Vec<[Vec3; 2]>,

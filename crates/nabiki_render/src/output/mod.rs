@@ -1,4 +1,4 @@
-//! Files: pictures, movies, sheets and drawings, each under its name only when whole.
+//! Output files: pictures, movies, sheets and drawings. Each gets its name only when it is complete.
 
 pub mod canvas;
 #[cfg(feature = "exr")]
@@ -22,10 +22,10 @@ fn create_part(path: &Path) -> Result<PartFile, RenderError> {
     PartFile::create(path).map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }
 
-/// Writes the bytes of a picture, as [`png::bytes`] and its like give them, into a file.
+/// Writes the bytes of a picture, such as those from [`png::bytes`], to a file.
 ///
 /// # Errors
-/// What the disk says.
+/// Errors of the disk.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
     write_whole(path, |file| file.write_all(bytes).map_err(Into::into))
 }

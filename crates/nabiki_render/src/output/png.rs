@@ -1,4 +1,4 @@
-//! PNG files: sRGB with straight alpha, of 8 or 16 bit.
+//! PNG files: sRGB with straight alpha, 8 or 16 bits.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Write};
@@ -12,7 +12,7 @@ use crate::RenderError;
 use crate::frame::Frame;
 use crate::tone_mapping::ToneMapping;
 
-/// Bits of each channel of a PNG file.
+/// Bits per channel of a PNG file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Depth {
     /// 8 bit.
@@ -34,7 +34,7 @@ pub struct Still {
 /// The width and height (pixels) of a PNG file, without its pixels.
 ///
 /// # Errors
-/// A file that cannot be read, or is no PNG.
+/// If the file cannot be read or is not a PNG.
 pub fn read_size(path: &Path) -> Result<[u32; 2], RenderError> {
     let (width, height) = decoder(path)?.dimensions();
     Ok([width, height])
@@ -43,7 +43,7 @@ pub fn read_size(path: &Path) -> Result<[u32; 2], RenderError> {
 /// The depth of a PNG file's channels.
 ///
 /// # Errors
-/// As [`read_size`].
+/// As for [`read_size`].
 pub fn read_depth(path: &Path) -> Result<Depth, RenderError> {
     let of_sixteen =
         matches!(decoder(path)?.color_type(), ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16);
@@ -53,7 +53,7 @@ pub fn read_depth(path: &Path) -> Result<Depth, RenderError> {
 /// Reads an opaque PNG file.
 ///
 /// # Errors
-/// A file that cannot be read, or is no PNG; pixels that are not opaque.
+/// If the file cannot be read, is not a PNG, or is not opaque.
 pub fn read(path: &Path) -> Result<Still, RenderError> {
     let picture = DynamicImage::from_decoder(decoder(path)?).map_err(|e| RenderError::read(path, e))?;
     let size = [picture.width(), picture.height()];
@@ -67,7 +67,7 @@ pub fn read(path: &Path) -> Result<Still, RenderError> {
     Ok(Still { size, rgb })
 }
 
-/// Whether a file is a PNG file that this crate has written, by the mark in it.
+/// Whether a file is a PNG written by this crate, according to the mark in it.
 pub fn is_ours(path: &Path) -> bool {
     let mut begins = [0; BEFORE_MARK + MARK.len()];
     let read = open(path).is_ok_and(|mut file| file.read_exact(&mut begins).is_ok());
@@ -91,7 +91,7 @@ fn decoder(path: &Path) -> Result<PngDecoder<BufReader<File>>, RenderError> {
     PngDecoder::new(BufReader::new(file)).map_err(|e| RenderError::read(path, e))
 }
 
-/// Writes a frame as a PNG file: sRGB, straight alpha (left out where the whole picture is opaque).
+/// Writes a frame as a PNG file: sRGB, straight alpha (left out if the picture is opaque).
 pub fn write(path: &Path, frame: &Frame, tone_mapping: &ToneMapping, depth: Depth) -> Result<(), RenderError> {
     let opaque = frame.rgba.iter().all(|p| p[3] >= 1.0);
     match depth {
@@ -114,7 +114,7 @@ pub fn write(path: &Path, frame: &Frame, tone_mapping: &ToneMapping, depth: Dept
     }
 }
 
-/// A frame as the bytes of a PNG file of 8 bit, as [`write()`] writes them.
+/// A frame as the bytes of an 8-bit PNG file, as written by [`write()`].
 pub fn bytes(frame: &Frame, tone_mapping: &ToneMapping) -> Result<Vec<u8>, RenderError> {
     let rgba = tone_mapping.rgba8(frame);
     let mut file = Vec::new();
@@ -126,7 +126,7 @@ pub fn bytes(frame: &Frame, tone_mapping: &ToneMapping) -> Result<Vec<u8>, Rende
     Ok(file)
 }
 
-/// Writes 8 bit sRGB pixels, three bytes each, as a PNG file.
+/// Writes 8-bit sRGB pixels, three bytes each, as a PNG file.
 pub fn write_rgb8(path: &Path, size: [u32; 2], rgb: &[u8]) -> Result<(), RenderError> {
     encode(path, size, rgb, ExtendedColorType::Rgb8)
 }

@@ -1,4 +1,4 @@
-//! Contact sheets: chosen frames side by side, each with its number and the force that drives it.
+//! Contact sheets: chosen frames side by side, each with its number and force.
 
 use std::path::Path;
 
@@ -17,30 +17,30 @@ const PAPER: [u8; 3] = [24, 25, 28];
 const INK: [u8; 3] = [235, 235, 230];
 const ARROW: [u8; 3] = [255, 176, 64];
 
-/// A force at a point, to be drawn as an arrow.
+/// A force at a point, drawn as an arrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceArrow {
-    /// Where it begins (cm).
+    /// Start of the arrow (cm).
     pub point: Vec3,
     /// The force.
     pub force: Vec3,
 }
 
-/// Pictures gathered for a sheet, as Figure 6 of the paper shows them: only the small ones are kept.
+/// Pictures for a contact sheet like Figure 6 of the paper. Only thumbnails are kept.
 pub struct ContactSheet {
     columns: usize,
     pictures: Vec<Canvas>,
 }
 
 impl ContactSheet {
-    /// A sheet with `columns` pictures in a row (at least 1).
+    /// A sheet with `columns` pictures per row (at least 1).
     pub fn new(columns: usize) -> Self {
         Self { columns: columns.max(1), pictures: Vec::new() }
     }
 
-    /// Adds a frame with its number; with `force` (head space) as an arrow beside it, drawn as `view` sees it.
+    /// Adds a frame with its number, and `force` (head space) as an arrow next to it, as seen by `view`.
     ///
-    /// A force seen end on is a dot; its three numbers stand below the arrow.
+    /// A force along the line of sight is a dot. Its three numbers are below the arrow.
     pub fn add(&mut self, frame: &Frame, tone_mapping: &ToneMapping, number: u32, force: Option<Vec3>, view: &View) {
         let size = frame.size.map(|s| s as usize);
         let mut picture = Canvas::shrunk(size, &tone_mapping.rgba8(frame), size[0].div_ceil(WIDEST));
@@ -65,8 +65,8 @@ impl ContactSheet {
         self.pictures.push(picture);
     }
 
-    /// Adds a frame with its number and arrows of a force that differs from place to place: each begins at its point, as
-    /// `view` sees it, and the largest is a tenth of the picture long. Its size stands below.
+    /// Adds a frame with its number and arrows of a force that varies in space. Each starts at its point, as seen by
+    /// `view`. The largest is a tenth of the picture long; its strength is below.
     pub fn add_arrows(
         &mut self,
         frame: &Frame,
@@ -93,12 +93,12 @@ impl ContactSheet {
         picture.label(&format!("largest F = {largest:.1}"), [text, height - text], 0.8 * text, INK, PAPER);
     }
 
-    /// Whether nothing was added yet.
+    /// Whether the sheet is empty.
     pub fn is_empty(&self) -> bool {
         self.pictures.is_empty()
     }
 
-    /// The sheet as it stands.
+    /// The sheet so far.
     pub fn canvas(&self) -> Canvas {
         let cell = self.pictures.iter().fold([1, 1], |m, p| [m[0].max(p.size()[0]), m[1].max(p.size()[1])]);
         let columns = self.columns.min(self.pictures.len().max(1));

@@ -1,4 +1,4 @@
-//! Movies: H.264 in MP4, encoded in this process, streamed to disk.
+//! Movies: H.264 in MP4, encoded in this process and streamed to disk.
 
 #[cfg(feature = "video")]
 mod codec;
@@ -23,13 +23,13 @@ use crate::frame::Frame;
 use crate::settings::Picture;
 use crate::tone_mapping::{ToneMapping, threshold};
 
-/// A movie being written. Nothing stands under its name until [`finish`](Self::finish).
+/// A movie that is being written. The file gets its name in [`finish`](Self::finish).
 ///
-/// Colour is Rec. 709, studio range, 4:2:0, of display values of 16 bits: so a movie of PNG files of 16 bits is that of
-/// the frames that they were written from, to the bit. An odd side loses its last row or column, which H.264's halved
-/// colour cannot hold. A transparent frame is shown on black.
+/// Colour is Rec. 709, studio range, 4:2:0, from 16-bit display values. A movie made from 16-bit PNG files is therefore
+/// the same, bit by bit, as one made from the original frames. An odd side loses its last row or column, because the
+/// chroma of H.264 has half the resolution. A transparent frame is shown on black.
 ///
-/// Frames are coded on a thread of their own, one after another, while the next are drawn; at most one waits.
+/// Frames are encoded on a separate thread, in order, while the next are drawn. At most one frame waits.
 pub struct Movie {
     path: PathBuf,
     size: [usize; 2],
@@ -44,10 +44,10 @@ type Planes = [Vec<u8>; 3];
 const WAITING: usize = 1;
 
 impl Movie {
-    /// Refuses what [`create`](Self::create) would refuse of the picture and the frame rate.
+    /// Checks picture and frame rate like [`create`](Self::create).
     ///
     /// # Errors
-    /// A size or frame rate that a movie cannot have; any movie, in a build without the feature `video`.
+    /// An unsupported size or frame rate. In a build without the feature `video`, always.
     pub fn check(picture: &Picture, frame_rate: f64) -> Result<(), RenderError> {
         picture.check()?;
         if !codec::IS_BUILT_IN {
@@ -71,19 +71,19 @@ impl Movie {
         Ok(())
     }
 
-    /// What [`takes`](Self::takes) asks for, in words.
+    /// The sizes that [`takes`](Self::takes) accepts, in words.
     pub const SIZES: &str = "a movie's sides must lie within 16 and 3840 x 2160 pixels";
 
-    /// Whether pictures of this size (pixels) can be a movie's, either way up.
+    /// Whether a movie can have this size (pixels), in either orientation.
     pub fn takes(size: [u32; 2]) -> bool {
         let size = size.map(|side| side & !1);
         size[0].max(size[1]) <= 3840 && (16..=2160).contains(&size[0].min(size[1]))
     }
 
-    /// Starts a movie at `path` with the size and quality of `picture`, of `frame_rate` frames a second (1..240).
+    /// Starts a movie at `path` with the size and quality of `picture`, at `frame_rate` frames per second (1..240).
     ///
     /// # Errors
-    /// A size or frame rate that a movie cannot have; a place that cannot be written.
+    /// An unsupported size or frame rate, or a place that cannot be written.
     pub fn create(path: &Path, picture: &Picture, frame_rate: f64) -> Result<Self, RenderError> {
         Self::check(picture, frame_rate)?;
         let size = picture.size.map(|s| s as usize & !1);
@@ -106,13 +106,13 @@ impl Movie {
         Ok(Self { path: path.to_owned(), size, planes: Some(planes), coding: Some(coding) })
     }
 
-    /// Appends a frame. It is coded while the next is drawn: what goes wrong then is said by a later call.
+    /// Appends a frame. It is encoded while the next is drawn, so a later call reports its errors.
     ///
     /// # Errors
-    /// What the encoder or the disk says.
+    /// Errors of the encoder or the disk.
     ///
     /// # Panics
-    /// If the frame's size is not that of the picture the movie was created for.
+    /// If the size of the frame is not that of the movie.
     pub fn push(&mut self, frame: &Frame, tone_mapping: &ToneMapping) -> Result<(), RenderError> {
         let stride = frame.size[0] as usize;
         let pixel = |x: usize, y: usize| {
@@ -122,13 +122,13 @@ impl Movie {
         self.push_pixels(frame.size, pixel)
     }
 
-    /// Appends a picture that is drawn already.
+    /// Appends an existing picture.
     ///
     /// # Errors
-    /// As [`push`](Self::push).
+    /// As for [`push`](Self::push).
     ///
     /// # Panics
-    /// As there.
+    /// As for [`push`](Self::push).
     pub fn push_still(&mut self, still: &Still) -> Result<(), RenderError> {
         let stride = still.size[0] as usize;
         self.push_pixels(still.size, |x, y| still.rgb[y * stride + x])
@@ -149,10 +149,10 @@ impl Movie {
         }
     }
 
-    /// Codes what is left, writes the index and gives the file its name.
+    /// Encodes the remaining frames, writes the index and gives the file its name.
     ///
     /// # Errors
-    /// What the encoder or the disk says.
+    /// Errors of the encoder or the disk.
     pub fn finish(mut self) -> Result<(), RenderError> {
         let mut coder = self.join()?;
         let Coder { path, track, coded, .. } = &mut coder;

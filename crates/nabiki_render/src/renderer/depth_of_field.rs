@@ -30,7 +30,7 @@ use crate::timing::Stage;
 const MOST_BLUR: f32 = 3.0;
 
 impl Renderer {
-    /// Draws through this many points of a lens, instead of as many as its blur asks for.
+    /// Draws through this many points of a lens, instead of the number that its blur requires.
     pub fn with_lens_points(mut self, count: usize) -> Self {
         self.lens_points = Some(count);
         self

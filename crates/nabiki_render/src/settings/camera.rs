@@ -4,7 +4,7 @@ use glam::Vec3;
 use nabiki::setting::{Place, refused};
 use nabiki::{SettingError, settings, words};
 
-/// Nearest depth drawn (cm): what is nearer to the eye than this, or behind it, is left out.
+/// Smallest depth that is drawn (cm). Everything nearer to the eye, or behind it, is left out.
 pub const NEAR: f32 = 1.0;
 
 words! {
@@ -71,7 +71,7 @@ settings! {
 }
 
 impl Camera {
-    /// The camera `progress` (0..1) of the way to its second key, with a soft start and stop.
+    /// The camera at `progress` (0..1) of the way to its second key, with a soft start and stop.
     pub fn at(&self, progress: f32) -> Self {
         let Some(to) = self.to else { return *self };
         let t = progress.clamp(0.0, 1.0);
@@ -90,7 +90,7 @@ impl Camera {
         }
     }
 
-    /// Whether a view of this camera depends on what is to be framed: something it needs is left open.
+    /// Whether the view depends on the framed objects, because a setting that it needs is not given.
     pub fn is_automatic(&self) -> bool {
         let open = match self.projection {
             Projection::Perspective => self.distance.is_none(),

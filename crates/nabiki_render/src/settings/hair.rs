@@ -46,7 +46,7 @@ pub enum HairColour {
 }
 
 impl HairColour {
-    /// Eumelanin and pheomelanin of the named colours, and those given; none of a colour that is given as it looks.
+    /// Eumelanin and pheomelanin of the colour, named or given. `None` for a colour given as RGB.
     pub fn melanin(self) -> Option<[f32; 2]> {
         match self {
             Self::Black => Some([8.0, 0.0]),

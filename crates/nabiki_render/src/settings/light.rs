@@ -45,7 +45,8 @@ settings! {
 }
 
 impl Light {
-    /// A portrait photographer's four lamps: a warm key from above, a weak cool fill, and two kickers from behind that edge the hair.
+    /// A portrait photographer's four lamps: a warm key light from above, a weak cool fill light, and two kickers from
+    /// behind that outline the hair.
     pub fn studio() -> Vec<Self> {
         let lamp = |azimuth, elevation, strength, colour, spread| Self {
             azimuth,
