@@ -143,7 +143,7 @@ macro_rules! settings {
     };
     (@check $name:ident) => {
         impl $name {
-            /// Refuses what is out of its range; `name` is the table's.
+            /// Refuses values out of range. `name` is the name of the table.
             ///
             /// # Errors
             /// Names the first such setting.
@@ -158,7 +158,7 @@ macro_rules! settings {
     };
     (@check $name:ident $place:literal) => {
         impl $name {
-            /// Refuses what is out of its range.
+            /// Refuses values out of range.
             ///
             /// # Errors
             /// Names the first such setting.
@@ -210,7 +210,7 @@ macro_rules! words {
         })?
 
         impl $name {
-            /// What a scene file calls it.
+            /// The word in a scene file.
             pub fn word(self) -> &'static str {
                 match self {
                     $(Self::$variant => $word,)*
