@@ -39,7 +39,7 @@ use bodies::BuiltBody;
 use model::ModelInputs;
 use stage::{At, Stage};
 
-/// All that a scene names, loaded and in head space, ready to be stepped. Scenes that have parts of it alike share them
+/// Everything that a scene names, loaded and in head space, ready for stepping. Scenes share equal parts
 /// ([`changed_to`](Self::changed_to)).
 #[derive(Clone, Debug)]
 pub struct BuiltScene {
@@ -47,13 +47,13 @@ pub struct BuiltScene {
     pub scene: Scene,
     /// The head.
     pub model: Arc<Model>,
-    /// Where the head is in each frame.
+    /// The poses of the head.
     pub way: Arc<Way>,
     /// The hair at rest.
     pub groom: Arc<Groom>,
-    /// What pushes the hair.
+    /// The fields.
     pub forces: Arc<Forces>,
-    /// How the hair answers a force.
+    /// The settings of the motion.
     pub dynamics: Dynamics,
     /// The scene's bodies, in their order; none in the paper's form.
     pub(crate) bodies: Vec<Arc<BuiltBody>>,
@@ -62,20 +62,20 @@ pub struct BuiltScene {
 }
 
 impl Scene {
-    /// Loads the head, grows or imports the hair, reads the head's motion.
+    /// Loads the head, grows or imports the hair, and reads the head's motion.
     ///
     /// # Errors
-    /// One line: file, thing, value and the way out.
+    /// One line: file, subject, value and remedy.
     pub fn build(self, shown: Shown) -> Result<BuiltScene> {
         build::build(self, shown, None, &[], &|_| true)
     }
 
-    /// The same, or what [`BuiltScene::changed_to`] gives of scenes that are `known`, the first of those that have a part alike, for
-    /// whoever may want it no more: between the files that are read, while roots are chosen and while hair grows, `goes_on` is told again and again, by any thread, how much is
-    /// grown, 0..1, and asked whether to go on.
+    /// Like [`build`](Self::build), sharing parts with the `known` scenes as in [`BuiltScene::changed_to`] (of several,
+    /// with the first that has an equal part). While files are read, roots chosen and hair grown, any thread calls
+    /// `goes_on` regularly with the share of the hair that is grown, 0..1. If it returns `false`, the build stops.
     ///
     /// # Errors
-    /// As [`build`](Self::build); [`Error::Cancelled`] where it was not to go on.
+    /// As for [`build`](Self::build); [`Error::Cancelled`] if `goes_on` returned `false`.
     pub fn build_while(
         self,
         shown: Shown,
@@ -85,43 +85,43 @@ impl Scene {
         build::build(self, shown, None, known, goes_on)
     }
 
-    /// The same, of which one shard of the strands alone is kept, and, where hair is grown, grown: each moves, to the bit,
-    /// as it does in the whole.
+    /// Like [`build`](Self::build), for only one shard of the strands. Each strand moves the same, bit by bit, as among
+    /// all.
     ///
     /// # Errors
-    /// As [`build`](Self::build); more shards than strands.
+    /// As for [`build`](Self::build); more shards than strands.
     pub fn build_shard(self, shown: Shown, shard: Shard) -> Result<BuiltScene> {
         build::build(self, shown, Some(shard), &[], &|_| true)
     }
 
-    /// What each of the scene's fields can reach, and last `all` of them together; head and motion are loaded for it, and hair where
+    /// The bound of each of the scene's fields, and last of `all` together. Loads head and motion, and also the hair if
     /// the wind has a speed.
     ///
     /// # Errors
-    /// As [`build`](Self::build).
+    /// As for [`build`](Self::build).
     pub fn field_bounds(&self) -> Result<Vec<FieldBound>> {
         build::field_bounds(self)
     }
 
-    /// Loads the head alone.
+    /// Loads only the head.
     ///
     /// # Errors
-    /// As [`build`](Self::build).
+    /// As for [`build`](Self::build).
     pub fn load_head(&self) -> Result<Head> {
         Model::make(ModelInputs::of(self), At::new(self, &|_| true)).map(|model| model.head)
     }
 }
 
-/// How many of a scene's strands are built: the first of the farthest-first order of its roots, so evenly spread over
-/// the scalp. Each moves, to the bit, as it does in the whole.
+/// How many of a scene's strands to build: the first in the farthest-first order of its roots, which are spread evenly
+/// over the scalp. Each moves the same, bit by bit, as among all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shown {
     /// All.
     #[default]
     All,
-    /// So many; more than the scene has are refused.
+    /// This many. More than the scene has are refused.
     First(usize),
-    /// So many, or all where the scene has fewer.
+    /// This many, or all if the scene has fewer.
     AtMost(usize),
 }
 
@@ -149,11 +149,11 @@ impl BuiltScene {
         edges.filter(|(_, edges)| *edges > 0 && matches!(self.dynamics.form, Form::Free(_)))
     }
 
-    /// What [`Scene::build`] gives, for an editor in which a scene changes a little at a time: what the two scenes have
-    /// alike is not read, grown or sampled again, so that files count as they were when this one was built.
+    /// Like [`Scene::build`], for an editor that changes a scene in small steps. Parts that are equal in both scenes
+    /// are not read, grown or sampled again. Files therefore count as they were when this scene was built.
     ///
     /// # Errors
-    /// As there.
+    /// As for [`Scene::build`].
     pub fn changed_to(&self, scene: Scene, shown: Shown) -> Result<Self> {
         build::build(scene, shown, None, &[self], &|_| true)
     }
@@ -161,7 +161,7 @@ impl BuiltScene {
     /// The fast stepper, at rest.
     ///
     /// # Errors
-    /// A field too strong for the hair; strands that cannot be moved.
+    /// A field too strong for the hair, or strands that cannot be moved.
     pub fn simulation(&self) -> Result<Simulation> {
         self.check_memory(1)?;
         let built = Simulation::with_ids(self.strands(), &self.groom.ids, &self.dynamics, &*self.forces.field);
@@ -183,7 +183,7 @@ impl BuiltScene {
     /// The f64 stepper, at rest.
     ///
     /// # Errors
-    /// As [`simulation`](Self::simulation).
+    /// As for [`simulation`](Self::simulation).
     pub fn reference(&self) -> Result<Reference> {
         // Its numbers are twice as long.
         self.check_memory(2)?;
@@ -191,10 +191,10 @@ impl BuiltScene {
         built.map_err(|refused| self.refusal(refused))
     }
 
-    /// All frames at hand, any of them again and again, under any field: for an editor, and for whatever tries many winds.
+    /// All frames at once, for an editor or for trying many winds.
     ///
     /// # Errors
-    /// As [`simulation`](Self::simulation).
+    /// As for [`simulation`](Self::simulation).
     pub fn timeline(&self) -> Result<Timeline> {
         self.check_memory(1)?;
         let (field, poses) = (self.forces.field.clone(), self.given_poses());
@@ -202,17 +202,17 @@ impl BuiltScene {
         built.map_err(|refused| self.refusal(refused))
     }
 
-    /// The poses that a timeline is given: those of all frames, or none for a head that stands still.
+    /// The poses for a timeline: those of all frames, or none for a head that does not move.
     pub fn given_poses(&self) -> Vec<Pose> {
         if self.head_moves() { self.way.poses[..=self.frames() as usize].to_vec() } else { Vec::new() }
     }
 
-    /// Intervals of `[[force]]` by their strength, as they would blow here.
+    /// Intervals of `[[force]]` with speeds converted to strengths for this hair.
     pub fn strengths_of(&self, force: &[ForceSettings]) -> Vec<Keyframe> {
         force.iter().map(|force| force.keyframe(self.of_speed)).collect()
     }
 
-    /// The strands at rest: all of the scene's, or those asked for.
+    /// The strands at rest: all of the scene's, or the requested ones.
     pub fn strands(&self) -> &Strands {
         &self.groom.hair.strands
     }
@@ -222,35 +222,35 @@ impl BuiltScene {
         self.scene.motion.frames
     }
 
-    /// Where the head is in a frame.
+    /// The pose of the head in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
         self.way.poses.get(frame as usize).copied().unwrap_or_default()
     }
 
-    /// The bodies that are shown: the number of each, its surface (its own space, cm) and where it is in the world in a frame.
+    /// The visible bodies: index, surface (body space, cm) and world pose in a frame.
     pub fn shown_bodies(&self, frame: u32) -> impl Iterator<Item = (usize, &Mesh, Pose)> {
         let head = self.pose(frame);
         let all = self.scene.bodies.iter().zip(&self.bodies).enumerate().filter(|(_, (settings, _))| settings.shown);
         all.map(move |(i, (_, body))| (i, &body.mesh, body.way.pose(frame, &head)))
     }
 
-    /// The bodies that are shown, to be drawn.
+    /// The visible bodies, for the renderer.
     pub fn drawn_bodies(&self) -> Vec<DrawnBody> {
         let all = self.shown_bodies(0);
         all.map(|(i, mesh, _)| DrawnBody { mesh: mesh.clone(), colour: self.scene.bodies[i].colour }).collect()
     }
 
-    /// Where the bodies that are shown are in the world in a frame, in the order of [`drawn_bodies`](Self::drawn_bodies).
+    /// World poses of the visible bodies in a frame, in the order of [`drawn_bodies`](Self::drawn_bodies).
     pub fn drawn_poses(&self, frame: u32) -> Vec<Pose> {
         self.shown_bodies(frame).map(|(_, _, pose)| pose).collect()
     }
 
-    /// What a step to a frame needs to know of it.
+    /// The input of the step to a frame.
     pub fn input(&self, frame: u32) -> FrameInput<'_> {
         FrameInput::new(frame, &self.way.poses, &*self.forces.field)
     }
 
-    /// The force at a point (cm) in a frame, both in the space that the scene gives its forces in.
+    /// The force at a point (cm) in a frame, both in the space of the scene's forces.
     pub fn force_at(&self, point: Vec3, frame: u32) -> Vec3 {
         self.forces.field.at(point, frame)
     }
@@ -274,7 +274,7 @@ impl BuiltScene {
         !self.way.poses.is_empty()
     }
 
-    /// How imported hair lay in its file and goes back into it, for exports and for a motion cache to remember.
+    /// The origin of imported hair, for exports into the space of its file and for motion caches.
     pub fn hair_origin(&self) -> Option<Origin> {
         let Imported { placement, report, curves, .. } = self.groom.imported.as_ref()?;
         let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
@@ -290,8 +290,8 @@ impl BuiltScene {
         }
     }
 
-    /// Number of frame 0 on the time line of the shot, from which exports go on: as the scene says, or else as the head's motion, or
-    /// else the hair's file begins; 0 where neither is of a shot.
+    /// Number of frame 0 on the timeline of the shot, from which exports count: that of the scene, or else of the file
+    /// of the head's motion, or else of the hair's file; 0 if none has one.
     pub fn first_frame(&self) -> i32 {
         let of_hair = || {
             let first = (self.groom.imported.as_ref()?.begins? * self.scene.frame_rate()).round() as i32;
@@ -301,8 +301,8 @@ impl BuiltScene {
         self.scene.output.first_frame.or(self.way.begins).or_else(of_hair).unwrap_or(0)
     }
 
-    /// A refused setting as an error that names the scene's file and line, and the unit to mend where hair or head have the
-    /// size of neither: no other setting would help then.
+    /// Adds the scene's file and line to an error, and the unit to fix if hair or head have an implausible size,
+    /// because no other setting would help then.
     pub fn refusal(&self, mut refused: SettingError) -> Error {
         let units = self.advice().into_iter().filter(Advice::is_of_unit);
         units.for_each(|advice| refused.remedy += &format!("; look first at the size: {advice}"));

@@ -92,12 +92,12 @@ impl TurbulenceField {
     /// Frames whose phases are worked out beforehand.
     const FIRST_FRAMES: u32 = 4096;
 
-    /// Turbulence about the head ellipsoid on its way: `poses` in the space of the field, one a frame from frame 0 on, the
-    /// last for good (none: it stands still). `wind`: the wind that swirls drift with, one vector a frame from frame 0 on,
-    /// the last for good.
+    /// Turbulence around the moving head ellipsoid. `poses` are those of the head in the space of the field, one per
+    /// frame from frame 0 on; the last one holds after that, and none means that it does not move. `wind` is the wind
+    /// with which swirls drift, one vector per frame from frame 0 on; the last one holds after that.
     ///
     /// # Errors
-    /// Settings out of range, `near_head` beyond the mean half axis, poses and winds that are not finite.
+    /// Settings out of range, `near_head` above the mean half axis, or poses and winds that are not finite.
     pub fn new(
         settings: &Turbulence,
         ellipsoid: Ellipsoid,
