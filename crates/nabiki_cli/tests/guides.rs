@@ -77,12 +77,14 @@ fn files(text: &str) -> Vec<String> {
 /// Puts the settings of `part` in the place of those that `scene` has.
 fn replace(scene: &mut toml::Table, part: toml::Table) {
     for (key, value) in part {
-        match (scene.get_mut(&key), value) {
-            (Some(toml::Value::Table(old)), toml::Value::Table(new)) => replace(old, new),
-            (_, value) => {
-                scene.insert(key, value);
+        let replaced = match (scene.remove(&key), value) {
+            (Some(toml::Value::Table(mut old)), toml::Value::Table(new)) => {
+                replace(&mut old, new);
+                toml::Value::Table(old)
             }
-        }
+            (_, value) => value,
+        };
+        scene.insert(key, replaced);
     }
 }
 
