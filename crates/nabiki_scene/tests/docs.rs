@@ -19,7 +19,8 @@ struct Block {
 
 fn blocks() -> Vec<Block> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let docs = std::fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let files = ["docs", "docs/guides"].map(|folder| std::fs::read_dir(root.join(folder)).unwrap());
+    let docs = files.into_iter().flatten().map(|entry| entry.unwrap().path());
     let pages: Vec<PathBuf> = docs.filter(|path| path.extension().is_some_and(|e| e == "md")).collect();
     pages.into_iter().chain([root.join("README.md")]).flat_map(|page| blocks_of(&page)).collect()
 }
@@ -82,9 +83,13 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
     for body in &scene.bodies {
         std::fs::write(scene.resolve(&body.mesh), TETRAHEDRON).unwrap();
         if let Some(motion) = &body.motion {
-            let rows: String = (0..60).map(|second| format!("{second},0,0,0,0,0,0,1\n")).collect();
-            std::fs::write(scene.resolve(&motion.file), format!("{COLUMNS}\n{rows}")).unwrap();
+            std::fs::write(scene.resolve(&motion.file), table()).unwrap();
         }
+    }
+    if let Some(motion) =
+        scene.head.motion.as_ref().filter(|motion| motion.file.extension().is_some_and(|e| e == "csv"))
+    {
+        std::fs::write(scene.resolve(&motion.file), table()).unwrap();
     }
     if let Some((motion, skeleton)) = scene.head.motion.as_ref().and_then(|m| m.skeleton.as_ref().map(|s| (m, s))) {
         std::fs::write(scene.resolve(skeleton), SKELETON).unwrap();
@@ -94,8 +99,11 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
     }
 }
 
-/// Of a body's way.
-const COLUMNS: &str = "t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw";
+/// The way of what stands still, as a table.
+fn table() -> String {
+    let rows: String = (0..60).map(|second| format!("{second},0,0,0,0,0,0,1\n")).collect();
+    format!("t_s,px_cm,py_cm,pz_cm,qx,qy,qz,qw\n{rows}")
+}
 
 /// Beside the head.
 const TETRAHEDRON: &str = "v 30 0 0\nv 32 0 0\nv 30 2 0\nv 30 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
@@ -175,12 +183,21 @@ fn the_program_of_the_readme_is_the_one_that_is_tested() {
     assert_eq!(program, tested);
 }
 
-/// That of the page for engines is an example, which is compiled.
+/// Those for engines and games are examples, which are compiled.
 #[test]
-fn the_program_for_engines_is_an_example() {
+fn the_programs_for_engines_are_examples() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let page = std::fs::read_to_string(root.join("docs/engine.md")).unwrap();
-    let program = page.split("```rust\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    let example = std::fs::read_to_string(root.join("crates/nabiki/examples/ball.rs")).unwrap();
-    assert!(example.ends_with(program), "{example}");
+    let pages: [(&str, &[&str]); 2] = [
+        ("docs/engine.md", &["crates/nabiki/examples/ball.rs"]),
+        ("docs/guides/game.md", &["crates/nabiki_groom/examples/game.rs", "crates/nabiki_io/examples/read.rs"]),
+    ];
+    for (page, examples) in pages {
+        let text = std::fs::read_to_string(root.join(page)).unwrap();
+        let programs: Vec<&str> = text.split("```rust\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+        assert_eq!(programs.len(), examples.len(), "{page}");
+        for (program, example) in programs.into_iter().zip(examples) {
+            let tested = std::fs::read_to_string(root.join(example)).unwrap();
+            assert!(tested.ends_with(program), "{page}: {example} is\n{tested}");
+        }
+    }
 }
