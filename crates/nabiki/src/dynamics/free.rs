@@ -34,6 +34,7 @@ mod reference;
 mod rotate;
 mod runner;
 mod segment;
+mod solve;
 mod work;
 
 use contact::{ANSWER, FAN, NEAR, PUSHES, ROUNDS, TOLERANCE_CM, TURN};

@@ -2,12 +2,14 @@
 
 use glam::Vec3;
 
-use super::kernel::{FreeState, bend, carry, drive, ends, pull_taut, slacken, solve, stay_behind, untwist, unwind};
+use super::kernel::{FreeState, bend, carry, ends, stay_behind, untwist};
 use super::packed::{Packed, Plan, Step};
 use super::passes::{Blown, Go, Place, Stepped, Velocities};
+use super::reference::TAKEN;
+use super::solve::{answer, drive, pull_taut, slacken, solve, unwind};
 use super::work::{self, Work};
 use crate::dynamics::block::Block;
-use crate::dynamics::row::{LANES, PointRow, lane as lane_of, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::sweep::Swept;
 use crate::prefetch::prefetch;
 use crate::vector::{scale, subtract};
@@ -73,11 +75,22 @@ impl Packed {
             let closer = bodies.iter().map(|body| body.closer).fold(0.0, f32::max);
             let stepped = Stepped { of, bodies, h, closer };
             stepped.push(states, work);
-            pull_taut(states, rows, work);
+            pull_taut::<false>(states, rows, work);
             slacken(work);
             drive(states, rows, work);
             solve(states, rows, h, work);
             unwind(work);
+            // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
+            if !bodies.is_empty()
+                && let Some(taken) = pressed(states)
+            {
+                answer(states, rows, h, &taken, work);
+                pull_taut::<true>(states, rows, work);
+                slacken(work);
+                drive(states, rows, work);
+                solve(states, rows, h, work);
+                unwind(work);
+            }
             let page = if n == step.steps as usize { page.take() } else { None };
             block.walk(&block.roots, states, rows, page, Go::new(stepped, work));
         }
@@ -123,11 +136,25 @@ impl Packed {
                 set_lane(&mut work.pushed, lane, scale(row.push.0[lane], self.weight_at_rest));
             }
         }
-        pull_taut(states, rows, work);
+        pull_taut::<false>(states, rows, work);
         slacken(work);
         drive(states, rows, work);
         for (state, work) in states.iter_mut().zip(work) {
             state.increment = work.driven;
         }
     }
+}
+
+/// How many times the answers of a strand's joints are taken: [`TAKEN`] where something presses it, else 0; `None` where nothing presses any.
+#[inline(always)]
+fn pressed(states: &[FreeState]) -> Option<Row> {
+    let mut most = Row([0.0; LANES]);
+    for state in states {
+        let pressed = state.pressed;
+        for lane in 0..LANES {
+            most.0[lane] = most.0[lane].max(pressed.0[lane]);
+        }
+    }
+    let taken = most.0.map(|pressed| if pressed > 0.0 { TAKEN as f32 } else { 0.0 });
+    taken.iter().any(|&taken| taken > 0.0).then_some(Row(taken))
 }

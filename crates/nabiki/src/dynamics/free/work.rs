@@ -18,7 +18,7 @@ pub(super) struct Work {
     pub weight: PointRow,
     /// R_(i-1) r_i.
     pub carried: PointRow,
-    /// M_i, the moment of the joint at its beginning.
+    /// M_i, the moment of the joint at its beginning; after a first solve, by how much the joints' force on the segment changes in the step.
     pub moment: PointRow,
     /// kappa_i, the part of a turn of the segment before it about itself that the joint hands on.
     pub handed: Row,

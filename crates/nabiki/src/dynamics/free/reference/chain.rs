@@ -14,6 +14,10 @@ pub const THETA: f64 = 0.6;
 /// do in a straight one: Q knows nothing of the ways in which segments turn that do not point alike.
 pub const BENT: f64 = 4.0;
 
+/// How many times what the joints answer in a first solve is taken for what they answer in the second. Under tensions that know nothing of it they
+/// answer about half of what they do under those that do.
+pub const TAKEN: f64 = 2.0;
+
 /// What the segments of a strand are given, and room for what the solve makes of it.
 #[derive(Clone, Debug)]
 pub struct Chain<S> {
@@ -35,6 +39,8 @@ pub struct Chain<S> {
     /// T_i.
     tensions: Vec<S>,
     upper: Vec<S>,
+    /// By how much the joints' forces on a segment change in the step, where that is known; else 0.
+    answers: Vec<Vector<S>>,
     /// s_i - T_i d_i, and what becomes of the increments.
     forces: Vec<Vector<S>>,
     driven: Vec<Vector<S>>,
@@ -56,6 +62,7 @@ impl<S: Scalar> Chain<S> {
             moments: vec![vector; segments + 1],
             tensions: vec![zero; segments],
             upper: vec![zero; segments],
+            answers: vec![vector; segments],
             forces: vec![vector; segments],
             driven: vec![vector; segments],
             bands: vec![[zero; 5]; segments],
@@ -66,6 +73,7 @@ impl<S: Scalar> Chain<S> {
     /// comes to rest at once.
     #[inline(always)]
     pub fn bend(&mut self, segments: &mut [Segment<S>]) {
+        self.answers.fill(Vector::zero());
         let mut frame = Turn::from(DQuat::IDENTITY);
         for (i, segment) in segments.iter().enumerate() {
             let (d, carried) = (segment.direction, frame.of_known(segment.moved_by.rest));
@@ -176,13 +184,18 @@ impl<S: Scalar> Chain<S> {
     fn pull_taut(&mut self, segments: &[Segment<S>]) {
         let n = segments.len();
         let (mut lightness, mut above, mut before) = (0.0, S::from(0.0), S::from(0.0));
+        let mut answered_before = Vector::zero();
         for (i, segment) in segments.iter().enumerate() {
             let (d, w) = (segment.direction, segment.increment);
             let (length, up) = (segment.moved_by.shape.length, segment.moved_by.lightness);
             if up == 0.0 {
                 continue;
             }
-            let right = (self.driven[i] - w * self.drag[i].times(length)).dot(d) + w.length_squared().times(length);
+            let beyond = self.answers.get(i + 1).copied().unwrap_or(Vector::zero());
+            let answered = (self.answers[i] - beyond).times(up);
+            let driven = self.driven[i] + (answered - answered_before) - w * self.drag[i].times(length);
+            let right = driven.dot(d) + w.length_squared().times(length);
+            answered_before = answered;
             let lower =
                 if lightness == 0.0 { S::from(0.0) } else { -d.dot(segments[i - 1].direction).times(lightness) };
             let middle = S::from(1.0) / (S::from(up + lightness) - lower * above);
@@ -271,6 +284,20 @@ impl<S: Scalar> Chain<S> {
                 left = left - self.driven[i + 2] * after;
             }
             self.driven[i] = left / middle;
+        }
+    }
+
+    /// After a solve: takes down how the joints answer the turns that it found, so that the tensions of another know of it.
+    #[inline(always)]
+    pub fn answer(&mut self, segments: &[Segment<S>], h: f64) {
+        for i in 0..segments.len() {
+            let mut turned = Vector::zero();
+            for (k, x) in self.stiffness(i, segments).into_iter().enumerate() {
+                if let Some((j, segment)) = (i + k).checked_sub(1).and_then(|j| Some((j, segments.get(j)?))) {
+                    turned += (self.driven[j].times(THETA) + segment.increment.times(1.0 - THETA)) * x;
+                }
+            }
+            self.answers[i] = turned.times(-(h * THETA * TAKEN));
         }
     }
 

@@ -210,12 +210,23 @@ impl<S: Scalar> Strand<S> {
             }
             self.chain.bend(&mut self.segments);
             self.push(common, bodies);
-            for (driven, residual) in self.chain.drive(&self.segments).iter_mut().zip(&self.residual) {
-                *driven = *driven - *residual;
+            self.solve(share);
+            // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
+            if self.segments.iter().any(|segment| segment.pressed.value() > 0.0) {
+                self.chain.answer(&self.segments, share);
+                self.solve(share);
             }
-            self.chain.solve(&self.segments, share);
             self.go(common, bodies, share);
         }
+    }
+
+    /// Finds the tensions, and the increments at the end of a step of `h` frames.
+    #[inline(always)]
+    fn solve(&mut self, h: f64) {
+        for (driven, residual) in self.chain.drive(&self.segments).iter_mut().zip(&self.residual) {
+            *driven = *driven - *residual;
+        }
+        self.chain.solve(&self.segments, h);
     }
 
     /// Asks for what is felt once a frame: the field, and what neighbours do.
