@@ -10,7 +10,7 @@
 //! | `reference/strand.rs` | one strand and its way through a frame |
 //! | `reference/chain.rs` | the three systems of a step: torsion, tensions, increments |
 //! | `reference/contact.rs` | a body in a step: it pushes a node before the solve, and turns a segment out after it |
-//! | `kernel.rs` | the fast chain: the passes to and fro along sixteen strands |
+//! | `kernel.rs`, `solve.rs` | the fast chain: the passes to and fro along sixteen strands, joints and turns in one, systems in the other |
 //! | `frame.rs` | which passes a block takes in a frame, in which order |
 //! | `passes.rs` | the passes that see surroundings: `Blown` once a frame, `Stepped` before the solve, `Go` after it |
 //! | `contact.rs` | bodies for the fast step, and the numbers of contact that both twins use |

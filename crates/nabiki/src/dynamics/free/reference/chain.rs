@@ -14,9 +14,10 @@ pub const THETA: f64 = 0.6;
 /// do in a straight one: Q knows nothing of the ways in which segments turn that do not point alike.
 pub const BENT: f64 = 4.0;
 
-/// How many times what the joints answer in a first solve is taken for what they answer in the second. Under tensions that know nothing of it they
-/// answer about half of what they do under those that do.
-pub const TAKEN: f64 = 2.0;
+/// How many times what the joints answer in a first solve is taken for what they answer in the second: it comes from tensions that know nothing
+/// of it, and is too little. Of 3,000 strands of a new scene under the earth's gravity, none goes on hopping with 1.5, in two, five or eight steps
+/// a frame; with 1 and 2 one does.
+pub const TAKEN: f64 = 1.5;
 
 /// What the segments of a strand are given, and room for what the solve makes of it.
 #[derive(Clone, Debug)]
