@@ -24,6 +24,8 @@ const SHAKE_CM: f64 = 3.0;
 const SHAKES_HZ: [f64; 6] = [1.0, 1.41, 1.6, 2.0, 3.24, 4.0];
 /// Steps a second for a head that moves.
 const RATE: f64 = 120.0;
+/// Frames a second of a film.
+const FILM_RATE: f64 = 24.0;
 /// How far a head bobs (cm), and how often (Hz).
 const BOB_CM: f64 = 2.0;
 const BOBS_HZ: [f64; 8] = [1.6, 2.0, 2.4, 2.8, 3.0, 3.2, 3.6, 4.0];
@@ -33,8 +35,12 @@ pub fn measure() {
     println!("omega 1, 2 over sqrt(g / L) at 24 frames a second; what a rod has");
     for gamma in GAMMAS {
         let [first, second, _] = frequencies(gamma);
-        let found = swings(gamma)
-            .map_or_else(|e| format!("refused: {} = {}", e.thing, e.value), |[a, b]| format!("{a:.3}, {b:.3}"));
+        // Frames show no more than half their rate.
+        let shown = second * unit() / TAU < 0.5 * FILM_RATE;
+        let found = swings(gamma).map_or_else(
+            |e| format!("refused: {} = {}", e.thing, e.value),
+            |[a, b]| if shown { format!("{a:.3}, {b:.3}") } else { format!("{a:.3}, too fast for frames") },
+        );
         println!("  gamma {gamma:>3}: {found}; {first:.3}, {second:.3}");
     }
     println!(
@@ -91,9 +97,8 @@ fn dynamics(gamma: f64, rate: f64, settle: f64) -> Dynamics {
 
 /// omega 1 and 2 of a strand that was pushed for a frame, in sqrt(g / L).
 fn swings(gamma: f64) -> Result<[f64; 2], SettingError> {
-    const AT_24: f64 = 24.0;
     const FRAMES: u32 = 480;
-    let dynamics = dynamics(gamma, AT_24, 0.0);
+    let dynamics = dynamics(gamma, FILM_RATE, 0.0);
     let Form::Free(free) = &dynamics.form else { unreachable!() };
     let push = Vec3::X * 0.05 * free.form.gravity;
     let keys = [Keyframe { through: 1, vector: push }, Keyframe { through: 2, vector: Vec3::ZERO }];
@@ -113,8 +118,12 @@ fn swings(gamma: f64) -> Result<[f64; 2], SettingError> {
     let above = peaks().filter(|&i| 2 * i > 3 * first);
     let second = above.max_by(|&i, &j| powers[i].total_cmp(&powers[j])).unwrap_or(0);
     let [first, second] = [first, second].map(|i| 2e-4 * i as f64);
-    let unit = (EARTH_CM_PER_S2 / LENGTH_CM).sqrt();
-    Ok([first, second].map(|frequency| TAU * frequency * AT_24 / unit))
+    Ok([first, second].map(|frequency| TAU * frequency * FILM_RATE / unit()))
+}
+
+/// sqrt(g / L) (rad/s).
+fn unit() -> f64 {
+    (EARTH_CM_PER_S2 / LENGTH_CM).sqrt()
 }
 
 /// The tip's way in the world (cm, from where it hangs) in the last third of so many seconds, of ours and of the reference, while the

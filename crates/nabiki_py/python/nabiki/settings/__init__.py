@@ -44,7 +44,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def hair(self) -> HairSettings:
-        """The hair at rest: grown from the scalp, or, where `file` is given, read from a file."""
+        """The hair at rest. It grows from the scalp, or comes from a file if you give `file`."""
         return HairSettings(self, 'hair')
 
     @hair.setter
@@ -53,7 +53,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def picture(self) -> Picture:
-        """What is drawn, and how."""
+        """How pictures are drawn."""
         return Picture(self, 'picture')
 
     @picture.setter
@@ -62,7 +62,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def output(self) -> Output:
-        """What a run writes. Where it goes is the command line's affair."""
+        """What a run writes. The command line sets the folder."""
         return Output(self, 'output')
 
     @output.setter
@@ -71,7 +71,9 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def force(self) -> Tables[ForceSettings]:
-        """One interval of the wind: `vector` drives every frame after the interval before it, up to `through`."""
+        """One interval of the wind. `vector` applies in each frame after the previous interval, up to and including
+        `through`.
+        """
         return Tables(self, 'force', ForceSettings)
 
     @force.setter
@@ -89,12 +91,12 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def gust(self) -> Gust:
-        """Gusts: a random factor about 1 on the wind of the intervals, which rises and falls as wind does.
+        """Gusts: a random factor around 1 on the wind of the intervals, which rises and falls like natural wind.
 
-        It has the spectrum of the wind's own direction after T. von Karman ("Progress in the statistical theory of
+        It has the spectrum of wind along its direction by T. von Karman ("Progress in the statistical theory of
         turbulence", PNAS 34, 1948) as engineers write it, `S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)`, up to a highest
-        frequency: what is faster is not felt by the whole head of hair at once, and is turbulence. Not there unless
-        it is given.
+        frequency. Faster changes do not reach all the hair at once; use turbulence for them. Off unless the scene has
+        this table.
         """
         return Gust(self, 'gust')
 
@@ -104,10 +106,10 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def body_wind(self) -> BodyWind:
-        """The wind from the head's own motion, uniform in space; it needs a motion of the head.
+        """The wind caused by the motion of the head, the same everywhere. It needs `[head.motion]`.
 
-        With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate: F = -drag v
-        - footfall (0, a_y, 0). Not there unless it is given.
+        With the head's velocity v (cm/s) and acceleration a (cm/s^2), from its poses and the frame rate: F = -drag v
+        - footfall (0, a_y, 0). Off unless the scene has this table.
         """
         return BodyWind(self, 'body_wind')
 
@@ -117,7 +119,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def flow(self) -> Flow:
-        """The way of the wind round the head, instead of through it. Not there unless it is given."""
+        """Leads the wind around the head instead of through it. Off unless the scene has this table."""
         return Flow(self, 'flow')
 
     @flow.setter
@@ -126,11 +128,11 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def turbulence(self) -> Turbulence:
-        """Turbulence: a random force without sources, which drifts with the wind and changes on its way.
+        """Turbulence: a random force of swirls that drift with the wind and change on the way.
 
-        It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the
-        head the potential is let go to 0 by Bridson's ramp, so that the force runs along the head. Not there unless
-        it is given.
+        It is the curl of a random vector potential, a sum of octaves that each have half the size of the one before.
+        Near the head, Bridson's ramp reduces the potential to 0, so the force runs along the head. Off unless the
+        scene has this table.
         """
         return Turbulence(self, 'turbulence')
 
@@ -140,7 +142,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def point(self) -> Tables[Point]:
-        """A point that blows or draws."""
+        """A point that pushes or pulls."""
         return Tables(self, 'point', Point)
 
     @point.setter
@@ -149,7 +151,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def vortex(self) -> Tables[Vortex]:
-        """A whirl: a force round an axis."""
+        """A vortex: a force around an axis."""
         return Tables(self, 'vortex', Vortex)
 
     @vortex.setter
@@ -176,8 +178,8 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def free(self) -> FreeSettings:
-        """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F, or in one of
-        the world.
+        """How hair keeps its shape and settles in the free form. Strengths are in F, the unit of the wind, or in world
+        units.
         """
         return FreeSettings(self, 'free')
 
@@ -187,7 +189,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def contact(self) -> Contact:
-        """How hair and a body touch, in the free form."""
+        """How hair and a body touch in the free form."""
         return Contact(self, 'contact')
 
     @contact.setter
@@ -196,11 +198,11 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def neighbours(self) -> NeighbourForces:
-        """Hair against hair, through a grid that a few strands, the carriers, fill as they move.
+        """Hair against hair. A few strands, the carriers, fill a grid as they move.
 
-        Carriers write density and mean velocity; in the next frame every strand, carriers too, reads them. So a
-        strand depends on itself and the carriers only, and any subset of the hair moves as within the whole. Not
-        there unless it is given.
+        Carriers write density and mean velocity to the grid. In the next frame all strands read them. A strand
+        therefore depends only on itself and the carriers, and any subset of the hair moves as it does among all. Off
+        unless the scene has this table.
         """
         return NeighbourForces(self, 'neighbours')
 
@@ -210,8 +212,8 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def pseudo_force(self) -> PseudoForce:
-        """The pseudo-force: it weakens the wind before the head, the paper's stand-in for collisions. The default is
-        Table 1 of the paper.
+        """The pseudo-force: it weakens the wind in front of the head, in place of collisions. The defaults are Table 1
+        of the paper.
         """
         return PseudoForce(self, 'pseudo_force')
 
@@ -221,12 +223,12 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def disturbance(self) -> Disturbance:
-        """Turns every strand a little, at random, every so many frames, in the paper's form.
+        """Turns each strand a little, at random and at regular intervals, in the paper's form.
 
-        The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
-        uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
-        segments' speeds are left alone. The numbers depend on seed, strand and frame only. Not there unless it is
-        given.
+        The paper gives neither size nor law. Here a strand gets one random turn of theta and one of phi, uniform
+        within `amplitude` at the tip and falling to 0 at the root. It therefore stays a smooth curve. The speeds of
+        the segments do not change. The random numbers depend only on seed, strand and frame. Off unless the scene has
+        this table.
         """
         return Disturbance(self, 'disturbance')
 
@@ -236,7 +238,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def head(self) -> HeadSettings:
-        """The head that hair grows on: the built-in bust, or one out of a file."""
+        """The head that hair grows on: the built-in bust, or a mesh from a file."""
         return HeadSettings(self, 'head')
 
     @head.setter
@@ -245,7 +247,7 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def body(self) -> Tables[BodySettings]:
-        """Something besides the head that hair does not enter, in the free form."""
+        """An object besides the head that hair keeps out of in the free form."""
         return Tables(self, 'body', BodySettings)
 
     @body.setter

@@ -27,14 +27,14 @@ __all__ = [
 
 
 class HairSettings(Table):
-    """The hair at rest: grown from the scalp, or, where `file` is given, read from a file."""
+    """The hair at rest. It grows from the scalp, or comes from a file if you give `file`."""
 
     __slots__ = ()
 
     @property
     def segment_length(self) -> float:
-        """Length of the segments that are grown (d), in which stiffness and the paper's k and i are counted. Number
-        above 0 (cm); default: 1.
+        """Length d of a grown segment. Stiffness and the paper's k and i are counted in this length. Number above 0
+        (cm); default: 1.
         """
         value: float = self._get('segment_length')
         return value
@@ -45,9 +45,7 @@ class HairSettings(Table):
 
     @property
     def strands(self) -> int:
-        """Number of strands of the whole scene. 19,330 is the paper's Table 1. Whole number, 1 to 800000000; default:
-        19330.
-        """
+        """Number of strands. The paper's Table 1 has 19,330. Whole number, 1 to 800000000; default: 19330."""
         value: int = self._get('strands')
         return value
 
@@ -57,7 +55,7 @@ class HairSettings(Table):
 
     @property
     def segments(self) -> int:
-        """Most segments of a strand. 18 is the paper's k. Whole number, 1 to 65535; default: 18."""
+        """Largest number of segments of a strand. The paper uses k = 18. Whole number, 1 to 65535; default: 18."""
         value: int = self._get('segments')
         return value
 
@@ -67,9 +65,7 @@ class HairSettings(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the roots and of the differences between strands: another number, others of both. Whole number;
-        default: 1.
-        """
+        """Random seed of the roots and of the differences between strands. Whole number; default: 1."""
         value: int = self._get('seed')
         return value
 
@@ -88,7 +84,7 @@ class HairSettings(Table):
 
     @property
     def style(self) -> Style:
-        """How it lies."""
+        """How the hair is styled."""
         return Style(self._scene, self._key_of('style'))
 
     @style.setter
@@ -97,7 +93,7 @@ class HairSettings(Table):
 
     @property
     def file(self) -> str:
-        """A .hair, .tfx, .obj (polylines), USD layer or Alembic archive. Path; must be given."""
+        """The hair: a .hair, .tfx, .obj (polylines), USD layer or Alembic archive. Path; must be given."""
         value: str = self._get('file')
         return value
 
@@ -107,8 +103,8 @@ class HairSettings(Table):
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Curves of a USD layer or Alembic archive to keep, by the name or path of their prim or of what it stands
-        below; all if empty. List of texts; default: none.
+        """Curves of a USD layer or Alembic archive to use, by the name or path of their prim or of one above it. Uses
+        all if empty. List of texts; default: none.
         """
         value: tuple[str, ...] = self._get('groups')
         return value
@@ -119,8 +115,8 @@ class HairSettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. Left out, it is what the file says, or that of the head's file, or cm. "mm", "cm", "dm",
-        "m", "in" or "ft", or number above 0; default: what files say.
+        """Length unit of the file. By default the unit in the file, or else that of the head's file, or else cm. "mm",
+        "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says.
         """
         value: str | float | None = self._get('unit')
         return value
@@ -131,8 +127,8 @@ class HairSettings(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file that points up. Left out, it is what the file says, or that of the head's file, or +y. "+x",
-        "-x", "+y", "-y", "+z" or "-z"; default: what files say.
+        """Axis of the file that points up. By default the axis in the file, or else that of the head's file, or else +y.
+        "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
@@ -143,7 +139,7 @@ class HairSettings(Table):
 
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file along which the face looks. Left out, it is that of the head's file, or +x. "+x", "-x", "+y",
+        """Axis of the file along which the face looks. By default that of the head's file, or else +x. "+x", "-x", "+y",
         "-y", "+z" or "-z"; default: the head's.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
@@ -175,8 +171,8 @@ class HairSettings(Table):
 
     @property
     def join_within(self) -> float:
-        """Neighbouring points of a strand this close are joined. 0 joins those alone that lie in one place, between
-        which a strand has no direction to move in. Number of at least 0 (cm); default: 0.001.
+        """Joins neighbouring points of a strand that are at most this far apart. 0 joins only points in the same place,
+        between which a strand has no direction. Number of at least 0 (cm); default: 0.001.
         """
         value: float = self._get('join_within')
         return value
@@ -187,7 +183,7 @@ class HairSettings(Table):
 
     @property
     def drop_shorter_than(self) -> float:
-        """Strands shorter than this are dropped; 0: only those without any extent. Number of at least 0 (cm); default:
+        """Drops strands shorter than this. 0 drops only strands without any length. Number of at least 0 (cm); default:
         0.
         """
         value: float = self._get('drop_shorter_than')
@@ -199,17 +195,17 @@ class HairSettings(Table):
 
 
 class Hairline(Table):
-    """Where hair grows: how far the hairline runs below the crown, all about the head.
+    """Where hair grows: how far the hairline runs below the crown, all around the head.
 
-    Depths are measured straight down from the highest point of the head ellipsoid E, in units of the mean of its two
-    horizontal half axes (8.65 cm on the built-in bust), so that a hairline fits heads of any size.
+    Depths are measured straight down from the top of the head ellipsoid E. The unit is the mean of its two horizontal
+    half axes, 8.65 cm on the built-in bust, so a hairline fits heads of any size.
     """
 
     __slots__ = ()
 
     @property
     def forehead(self) -> float:
-        """Depth of the line over the middle of the forehead. 0.5 is 4.3 cm on the bust. Number, 0 to 2; default: 0.5."""
+        """Depth of the line above the middle of the forehead. 0.5 is 4.3 cm on the bust. Number, 0 to 2; default: 0.5."""
         value: float = self._get('forehead')
         return value
 
@@ -219,8 +215,8 @@ class Hairline(Table):
 
     @property
     def temple_recession(self) -> float:
-        """How much higher than that the line stands over the temples. 0.05 is 0.4 cm on the bust. Number, -0.5 to 0.5;
-        default: 0.05.
+        """How much higher the line is at the temples than at the forehead. 0.05 is 0.4 cm on the bust. Number, -0.5 to
+        0.5; default: 0.05.
         """
         value: float = self._get('temple_recession')
         return value
@@ -253,8 +249,8 @@ class Hairline(Table):
 
     @property
     def behind_ears(self) -> float:
-        """How much farther forward the line comes down behind the ears: hair that is tied up shows where it runs. 0.25
-        is 2.2 cm on the bust. Number, 0 to 0.25; default: 0.
+        """How much farther forward the line comes down behind the ears. It shows when hair is tied up. 0.25 is 2.2 cm on
+        the bust. Number, 0 to 0.25; default: 0.
         """
         value: float = self._get('behind_ears')
         return value
@@ -265,7 +261,7 @@ class Hairline(Table):
 
     @property
     def nape(self) -> float:
-        """Depth of the line on the nape. 2.1 is 18 cm on the bust. Number, 0 to 2.8; default: 2.1."""
+        """Depth of the line at the nape. 2.1 is 18 cm on the bust. Number, 0 to 2.8; default: 2.1."""
         value: float = self._get('nape')
         return value
 
@@ -275,7 +271,9 @@ class Hairline(Table):
 
     @property
     def fade(self) -> float:
-        """Height over which hair thins out at the line. 0.1 is 0.9 cm on the bust. Number, 0 to 1; default: 0.1."""
+        """Height of the band along the line in which hair thins out. 0.1 is 0.9 cm on the bust. Number, 0 to 1; default:
+        0.1.
+        """
         value: float = self._get('fade')
         return value
 
@@ -285,8 +283,8 @@ class Hairline(Table):
 
     @property
     def wander(self) -> float:
-        """How far the line wanders up and down, in waves of one to three centimetres on the bust. Number, 0 to 0.3;
-        default: 0.
+        """How far the line wanders up and down, in waves of 1 to 3 cm on the bust. Raise it for a less regular hairline.
+        Number, 0 to 0.3; default: 0.
         """
         value: float = self._get('wander')
         return value
@@ -297,17 +295,17 @@ class Hairline(Table):
 
 
 class Style(Table):
-    """A hairstyle: how hair leaves the scalp, how stiff and how long it is, where it is combed and cut.
+    """A hairstyle: how hair leaves the scalp, its stiffness and length, and where it is combed and cut.
 
-    Lengths are in cm, directions in head space (+x where the face looks, +y up, +z to the character's right), loads
-    in units of the hair's own weight.
+    Lengths are in cm. Directions are in head space: +x where the face looks, +y up, +z to the character's right.
+    Loads are in units of the hair's own weight.
     """
 
     __slots__ = ()
 
     @property
     def stiffness(self) -> Stiffness:
-        """(E I / w)^(1/3): over about this length hair bends under its own weight."""
+        """Length over which hair bends under its own weight: (E I / w)^(1/3)."""
         return Stiffness(self._scene, self._key_of('stiffness'))
 
     @stiffness.setter
@@ -325,7 +323,7 @@ class Style(Table):
 
     @property
     def lift_degrees(self) -> Lift:
-        """Angle between a root and the scalp: 90 is along the normal, as in the paper."""
+        """Angle between root and scalp. 90 is along the normal, as in the paper."""
         return Lift(self._scene, self._key_of('lift_degrees'))
 
     @lift_degrees.setter
@@ -352,7 +350,7 @@ class Style(Table):
 
     @property
     def fringe(self) -> Fringe:
-        """Hair combed over the forehead; none by default."""
+        """Hair combed over the forehead. Off by default."""
         return Fringe(self._scene, self._key_of('fringe'))
 
     @fringe.setter
@@ -361,7 +359,7 @@ class Style(Table):
 
     @property
     def volume(self) -> Volume:
-        """How hair lies over hair."""
+        """How hair lies over other hair."""
         return Volume(self._scene, self._key_of('volume'))
 
     @volume.setter
@@ -370,7 +368,7 @@ class Style(Table):
 
     @property
     def variation(self) -> Variation:
-        """How much the strands differ."""
+        """How much strands differ."""
         return Variation(self._scene, self._key_of('variation'))
 
     @variation.setter
@@ -388,7 +386,7 @@ class Style(Table):
 
     @property
     def curl(self) -> Curl:
-        """Curls and waves; none by default."""
+        """Curls and waves. Off by default."""
         return Curl(self._scene, self._key_of('curl'))
 
     @curl.setter
@@ -397,7 +395,7 @@ class Style(Table):
 
     @property
     def ponytail(self) -> Ponytail:
-        """A tail that all hair but the fringe is tied to."""
+        """A ponytail that ties all hair except the fringe."""
         return Ponytail(self._scene, self._key_of('ponytail'))
 
     @ponytail.setter
@@ -406,7 +404,7 @@ class Style(Table):
 
     @property
     def cuts(self) -> Tables[Cut]:
-        """Planes beyond which hair is cut off, in any number."""
+        """Any number of planes that cut off the hair beyond them."""
         return Tables(self._scene, self._key_of('cuts'), Cut)
 
     @cuts.setter
@@ -425,13 +423,17 @@ class Style(Table):
 
 
 class Stiffness(Table):
-    """(E I / w)^(1/3) by region. Real hair: about 4.5; combed and lying on other hair, less."""
+    """Bending length (E I / w)^(1/3) by region. Raise it for hair that stands off more. Real hair has about 4.5 cm;
+    combed hair that lies on other hair has less.
+    """
 
     __slots__ = ()
 
     @property
     def top(self) -> float:
-        """On the upper third of the head; passes smoothly into `sides` and `back`. Number, 0.1 to 100 (cm); default: 2."""
+        """Value on the upper third of the head. It blends smoothly into `sides` and `back`. Number, 0.1 to 100 (cm);
+        default: 2.
+        """
         value: float = self._get('top')
         return value
 
@@ -441,7 +443,9 @@ class Stiffness(Table):
 
     @property
     def sides(self) -> float:
-        """Below, in front of the middle of the ears; passes smoothly into `back`. Number, 0.1 to 100 (cm); default: 2."""
+        """Value below the top, in front of the middle of the ears. It blends smoothly into `back`. Number, 0.1 to 100
+        (cm); default: 2.
+        """
         value: float = self._get('sides')
         return value
 
@@ -451,7 +455,7 @@ class Stiffness(Table):
 
     @property
     def back(self) -> float:
-        """Below, behind. Number, 0.1 to 100 (cm); default: 2."""
+        """Value below the top, behind the ears. Number, 0.1 to 100 (cm); default: 2."""
         value: float = self._get('back')
         return value
 
@@ -461,7 +465,7 @@ class Stiffness(Table):
 
     @property
     def fringe(self) -> float:
-        """Of the fringe, if the style has one. Number, 0.1 to 100 (cm); default: 2."""
+        """Value of the fringe, if the style has one. Number, 0.1 to 100 (cm); default: 2."""
         value: float = self._get('fringe')
         return value
 
@@ -471,13 +475,15 @@ class Stiffness(Table):
 
 
 class Length(Table):
-    """Length by region before any cut."""
+    """Length by region, before any cut."""
 
     __slots__ = ()
 
     @property
     def top(self) -> float:
-        """On the upper third of the head; passes smoothly into `sides` and `back`. Number above 0 (cm); default: 18."""
+        """Value on the upper third of the head. It blends smoothly into `sides` and `back`. Number above 0 (cm);
+        default: 18.
+        """
         value: float = self._get('top')
         return value
 
@@ -487,7 +493,9 @@ class Length(Table):
 
     @property
     def sides(self) -> float:
-        """Below, in front of the middle of the ears; passes smoothly into `back`. Number above 0 (cm); default: 18."""
+        """Value below the top, in front of the middle of the ears. It blends smoothly into `back`. Number above 0 (cm);
+        default: 18.
+        """
         value: float = self._get('sides')
         return value
 
@@ -497,7 +505,7 @@ class Length(Table):
 
     @property
     def back(self) -> float:
-        """Below, behind. Number above 0 (cm); default: 18."""
+        """Value below the top, behind the ears. Number above 0 (cm); default: 18."""
         value: float = self._get('back')
         return value
 
@@ -507,7 +515,7 @@ class Length(Table):
 
     @property
     def fringe(self) -> float:
-        """Of the fringe, if the style has one. Number above 0 (cm); default: 18."""
+        """Value of the fringe, if the style has one. Number above 0 (cm); default: 18."""
         value: float = self._get('fringe')
         return value
 
@@ -517,14 +525,14 @@ class Length(Table):
 
 
 class Lift(Table):
-    """Angle of the roots above the scalp by region."""
+    """Angle of the roots above the scalp, by region."""
 
     __slots__ = ()
 
     @property
     def top(self) -> float:
-        """On the upper third of the head; passes smoothly into `sides` and `back`. Number, 0 to 90 (degrees); default:
-        20.
+        """Value on the upper third of the head. It blends smoothly into `sides` and `back`. Number, 0 to 90 (degrees);
+        default: 20.
         """
         value: float = self._get('top')
         return value
@@ -535,8 +543,8 @@ class Lift(Table):
 
     @property
     def sides(self) -> float:
-        """Below, in front of the middle of the ears; passes smoothly into `back`. Number, 0 to 90 (degrees); default:
-        20.
+        """Value below the top, in front of the middle of the ears. It blends smoothly into `back`. Number, 0 to 90
+        (degrees); default: 20.
         """
         value: float = self._get('sides')
         return value
@@ -547,7 +555,7 @@ class Lift(Table):
 
     @property
     def back(self) -> float:
-        """Below, behind. Number, 0 to 90 (degrees); default: 20."""
+        """Value below the top, behind the ears. Number, 0 to 90 (degrees); default: 20."""
         value: float = self._get('back')
         return value
 
@@ -557,7 +565,7 @@ class Lift(Table):
 
     @property
     def fringe(self) -> float:
-        """Of the fringe, if the style has one. Number, 0 to 90 (degrees); default: 20."""
+        """Value of the fringe, if the style has one. Number, 0 to 90 (degrees); default: 20."""
         value: float = self._get('fringe')
         return value
 
@@ -567,9 +575,9 @@ class Lift(Table):
 
 
 class Parting(Table):
-    """The parting: a line over the top of the head, straight as seen from above, from the front to the crown.
+    """The parting: a line over the top of the head from the front to the crown, straight as seen from above.
 
-    Hair is combed away from the nearest point of it: to the sides along the line, all around beyond its ends.
+    Hair is combed away from the nearest point of the line: to the sides along it, in all directions beyond its ends.
     Positive z is on the character's right.
     """
 
@@ -577,8 +585,8 @@ class Parting(Table):
 
     @property
     def front(self) -> tuple[float, float]:
-        """Its front end as seen from above, (x, z); it may stop short of the hairline. 2 numbers, each -100 to 100 (cm);
-        default: [10, 0].
+        """Front end of the line as seen from above, (x, z). It may lie behind the hairline. 2 numbers, each -100 to 100
+        (cm); default: [10, 0].
         """
         value: tuple[float, float] = self._get('front')
         return value
@@ -589,7 +597,7 @@ class Parting(Table):
 
     @property
     def crown(self) -> tuple[float, float]:
-        """Its end at the crown, (x, z). 2 numbers, each -100 to 100 (cm); default: [-4, 0]."""
+        """End of the line at the crown, (x, z). 2 numbers, each -100 to 100 (cm); default: [-4, 0]."""
         value: tuple[float, float] = self._get('crown')
         return value
 
@@ -599,8 +607,8 @@ class Parting(Table):
 
     @property
     def wobble(self) -> float:
-        """How far it strays from the straight line, clumps and single strands alike: what grows nearer falls to either
-        side, which keeps the line from being bare. Number, 0 to 5 (cm); default: 0.3.
+        """How far the parting strays from the straight line, by clumps and single strands. Raise it to hide a bare line:
+        hair that grows nearer falls to either side. Number, 0 to 5 (cm); default: 0.3.
         """
         value: float = self._get('wobble')
         return value
@@ -611,13 +619,13 @@ class Parting(Table):
 
 
 class Comb(Table):
-    """The styling force: a load besides the weight that decays along the strand as exp(-s / decay)."""
+    """The styling force. It acts in addition to weight and decays along the strand as exp(-s / decay)."""
 
     __slots__ = ()
 
     @property
     def away(self) -> float:
-        """Away from the parting, level. Number, 0 to 1000 (weights); default: 1."""
+        """Load away from the parting, horizontally. Number, 0 to 1000 (weights); default: 1."""
         value: float = self._get('away')
         return value
 
@@ -627,8 +635,8 @@ class Comb(Table):
 
     @property
     def sweep(self) -> tuple[float, float, float]:
-        """In one direction for all hair but the fringe: (-1, 0, 0) is backward. 3 numbers, each -1000 to 1000 (weights);
-        default: [0, 0, 0].
+        """Load in one direction for all hair except the fringe. (-1, 0, 0) is backward. 3 numbers, each -1000 to 1000
+        (weights); default: [0, 0, 0].
         """
         value: tuple[float, float, float] = self._get('sweep')
         return value
@@ -639,8 +647,8 @@ class Comb(Table):
 
     @property
     def off_face(self) -> float:
-        """Backward for hair rooted in front, growing toward the forehead, which keeps the face free. Number, 0 to 1000
-        (weights); default: 0.
+        """Backward load on hair rooted in front, strongest at the forehead. Raise it to keep the face free. Number, 0 to
+        1000 (weights); default: 0.
         """
         value: float = self._get('off_face')
         return value
@@ -651,7 +659,7 @@ class Comb(Table):
 
     @property
     def decay(self) -> float:
-        """Length over which they fall to 1/e. Number above 0 (cm); default: 6."""
+        """Length over which these loads fall to 1/e. Number above 0 (cm); default: 6."""
         value: float = self._get('decay')
         return value
 
@@ -661,13 +669,15 @@ class Comb(Table):
 
 
 class Fringe(Table):
-    """Hair over the forehead: the strands rooted in a strip at the front are combed forward, past the parting's rule."""
+    """Hair over the forehead. Strands rooted in a strip at the front are combed forward instead of away from the
+    parting.
+    """
 
     __slots__ = ()
 
     @property
     def half_width(self) -> float:
-        """Half the width of the strip, about the middle of the head; 0: no fringe. Number, 0 to 100 (cm); default: 0."""
+        """Half the width of the strip, centred on the head. 0 makes no fringe. Number, 0 to 100 (cm); default: 0."""
         value: float = self._get('half_width')
         return value
 
@@ -677,7 +687,7 @@ class Fringe(Table):
 
     @property
     def from_(self) -> float:
-        """Where it ends behind, along x. Number, -100 to 100 (cm); default: 5."""
+        """Rear edge of the strip along x. Number, -100 to 100 (cm); default: 5."""
         value: float = self._get('from')
         return value
 
@@ -687,7 +697,7 @@ class Fringe(Table):
 
     @property
     def forward(self) -> float:
-        """Load forward near the root. Number, 0 to 1000 (weights); default: 1.5."""
+        """Forward load near the root. Number, 0 to 1000 (weights); default: 1.5."""
         value: float = self._get('forward')
         return value
 
@@ -697,7 +707,9 @@ class Fringe(Table):
 
     @property
     def aside(self) -> float:
-        """Load along z, for a fringe swept to one side. Number, -1000 to 1000 (weights); default: 0."""
+        """Load along z near the root. Raise it to sweep the fringe to one side. Number, -1000 to 1000 (weights);
+        default: 0.
+        """
         value: float = self._get('aside')
         return value
 
@@ -707,13 +719,13 @@ class Fringe(Table):
 
 
 class Volume(Table):
-    """Hair over hair: what comes from farther up lies farther out."""
+    """Hair over hair: hair from farther up lies farther out."""
 
     __slots__ = ()
 
     @property
     def thickness(self) -> float:
-        """Distance to the skin that hair from far above keeps. Number, 0 to 20 (cm); default: 0.8."""
+        """Distance from the skin that hair from far above keeps. Number, 0 to 20 (cm); default: 0.8."""
         value: float = self._get('thickness')
         return value
 
@@ -723,7 +735,7 @@ class Volume(Table):
 
     @property
     def reach(self) -> float:
-        """Length of hair on the head over which most of it is reached. Number above 0 (cm); default: 6."""
+        """Length of hair on the head over which most of `thickness` is reached. Number above 0 (cm); default: 6."""
         value: float = self._get('reach')
         return value
 
@@ -733,7 +745,7 @@ class Volume(Table):
 
     @property
     def gap(self) -> float:
-        """Distance that any hair keeps. Number, 0 to 5 (cm); default: 0.04."""
+        """Distance from the skin that all hair keeps. Number, 0 to 5 (cm); default: 0.04."""
         value: float = self._get('gap')
         return value
 
@@ -743,7 +755,7 @@ class Volume(Table):
 
     @property
     def over_ears(self) -> bool:
-        """Whether hair from above passes over the ears or parts about them. True or false; default: true."""
+        """Whether hair from above passes over the ears instead of parting around them. True or false; default: true."""
         value: bool = self._get('over_ears')
         return value
 
@@ -753,13 +765,13 @@ class Volume(Table):
 
 
 class Variation(Table):
-    """Differences from strand to strand, drawn from the scene's seed and the root's place."""
+    """Random differences between strands. They depend on the scene's seed and the place of the root."""
 
     __slots__ = ()
 
     @property
     def length(self) -> float:
-        """Largest share by which a strand falls short of its length. Number, 0 to 0.9; default: 0.06."""
+        """Largest share by which a strand is shorter than `length`. Number, 0 to 0.9; default: 0.06."""
         value: float = self._get('length')
         return value
 
@@ -769,7 +781,7 @@ class Variation(Table):
 
     @property
     def stiffness(self) -> float:
-        """Relative deviation of the stiffness. Number, 0 to 0.3; default: 0.15."""
+        """Standard deviation of the stiffness, relative to its value. Number, 0 to 0.3; default: 0.15."""
         value: float = self._get('stiffness')
         return value
 
@@ -779,7 +791,7 @@ class Variation(Table):
 
     @property
     def direction_degrees(self) -> float:
-        """Deviation of the direction, at the root and of the load. Number, 0 to 45 (degrees); default: 3."""
+        """Standard deviation of the direction, at the root and of the load. Number, 0 to 45 (degrees); default: 3."""
         value: float = self._get('direction_degrees')
         return value
 
@@ -789,7 +801,7 @@ class Variation(Table):
 
     @property
     def strays(self) -> float:
-        """Share of stray hairs, whose direction deviates four times as much. Number, 0 to 1; default: 0.02."""
+        """Share of stray hairs. Their direction varies four times as much. Number, 0 to 1; default: 0.02."""
         value: float = self._get('strays')
         return value
 
@@ -799,7 +811,7 @@ class Variation(Table):
 
     @property
     def cut(self) -> float:
-        """Deviation of the cut from its plane. Number, 0 to 10 (cm); default: 0.15."""
+        """Standard deviation of the cut from its plane. Number, 0 to 10 (cm); default: 0.15."""
         value: float = self._get('cut')
         return value
 
@@ -809,8 +821,8 @@ class Variation(Table):
 
     @property
     def baby_hair(self) -> float:
-        """Baby hair: the largest share by which a strand on the hairline falls short, and strays the more. It is as long
-        as others from 0.2 of the hairline's unit on (1.7 cm on the bust). Number, 0 to 0.95; default: 0.
+        """Largest share by which a strand at the hairline is shorter; it also strays more. Hair has its full length from
+        0.2 of the unit of the hairline on (1.7 cm on the bust). Number, 0 to 0.95; default: 0.
         """
         value: float = self._get('baby_hair')
         return value
@@ -821,7 +833,7 @@ class Variation(Table):
 
 
 class Clumps(Table):
-    """Clumps: neighbours that fall together, and wave together."""
+    """Clumps: neighbouring strands that fall and wave together."""
 
     __slots__ = ()
 
@@ -837,7 +849,9 @@ class Clumps(Table):
 
     @property
     def gather(self) -> float:
-        """How far its tips draw together: 0 not at all, 1 to a point. Number, 0 to 1; default: 0.4."""
+        """How far the tips of a clump draw together, from 0 (not at all) to 1 (to a point). Number, 0 to 1; default:
+        0.4.
+        """
         value: float = self._get('gather')
         return value
 
@@ -847,7 +861,7 @@ class Clumps(Table):
 
     @property
     def direction_degrees(self) -> float:
-        """Deviation of a clump's direction as a whole. Number, 0 to 45 (degrees); default: 2."""
+        """Standard deviation of the direction of each clump. Number, 0 to 45 (degrees); default: 2."""
         value: float = self._get('direction_degrees')
         return value
 
@@ -857,7 +871,7 @@ class Clumps(Table):
 
     @property
     def wave(self) -> float:
-        """Height of its waves, at most 0.16 of their length. Number of at least 0 (cm); default: 0.1."""
+        """Height of the waves of a clump, at most 0.16 of their length. Number of at least 0 (cm); default: 0.1."""
         value: float = self._get('wave')
         return value
 
@@ -867,7 +881,7 @@ class Clumps(Table):
 
     @property
     def wave_length(self) -> float:
-        """Length of its waves. Number above 0 (cm); default: 8."""
+        """Length of the waves of a clump. Number above 0 (cm); default: 8."""
         value: float = self._get('wave_length')
         return value
 
@@ -877,18 +891,20 @@ class Clumps(Table):
 
 
 class Curl(Table):
-    """Curls: every strand winds about the line in which it would hang without them, alike within a clump.
+    """Curls: each strand winds around the line that it would follow without curls, alike within a clump.
 
-    `hair.style.length` is the hair's own, so a strand reaches the less far the more it curls, and has the same
-    segments. Stiffness and loads are those of the curled strand as a whole, and cuts are made where its line meets
-    the plane: its end lies within the curl's radius of that.
+    A strand keeps the length of `hair.style.length` and its segments, so it reaches less far the more it curls.
+    Stiffness and loads act on the curled strand. A cut acts where the line meets the plane, so the end of the strand
+    lies within the curl's radius of it.
     """
 
     __slots__ = ()
 
     @property
     def radius(self) -> float:
-        """Distance between a strand and its line, at most `pitch`; 0: no curls. Number of at least 0 (cm); default: 0."""
+        """Distance between a strand and its line, at most `pitch`. 0 makes no curls. Number of at least 0 (cm); default:
+        0.
+        """
         value: float = self._get('radius')
         return value
 
@@ -898,7 +914,7 @@ class Curl(Table):
 
     @property
     def pitch(self) -> float:
-        """Length of the line in one turn. Number above 0 (cm); default: 2.5."""
+        """Length of the line per turn. Number above 0 (cm); default: 2.5."""
         value: float = self._get('pitch')
         return value
 
@@ -908,8 +924,8 @@ class Curl(Table):
 
     @property
     def from_(self) -> float:
-        """Distance from the root at which curls are whole, as a share of the strand's length: from there on they have
-        their radius, before they grow to it. Number, 0.01 to 1; default: 0.25.
+        """Distance from the root at which curls reach their full radius, as a share of the strand's length. Number, 0.01
+        to 1; default: 0.25.
         """
         value: float = self._get('from')
         return value
@@ -920,7 +936,7 @@ class Curl(Table):
 
     @property
     def flatness(self) -> float:
-        """0 winds to a helix, 1 waves in a plane; between them the helix is flat. Number, 0 to 1; default: 0."""
+        """0 winds a helix, 1 waves in a plane. Values in between flatten the helix. Number, 0 to 1; default: 0."""
         value: float = self._get('flatness')
         return value
 
@@ -930,8 +946,8 @@ class Curl(Table):
 
     @property
     def gather(self) -> float:
-        """How far the hair of a clump closes to one lock by `from`: 0 not at all, 1 onto one line. Number, 0 to 1;
-        default: 0.7.
+        """How far the hair of a clump closes to one lock by `from`, from 0 (not at all) to 1 (onto one line). Number, 0
+        to 1; default: 0.7.
         """
         value: float = self._get('gather')
         return value
@@ -942,7 +958,7 @@ class Curl(Table):
 
     @property
     def variation(self) -> float:
-        """Largest share by which radius and pitch differ from clump to clump. Number, 0 to 0.6; default: 0.2."""
+        """Largest share by which radius and pitch differ between clumps. Number, 0 to 0.6; default: 0.2."""
         value: float = self._get('variation')
         return value
 
@@ -952,8 +968,8 @@ class Curl(Table):
 
     @property
     def frizz(self) -> float:
-        """The same for the radius of single strands within a clump, and for the half turn by which they may be ahead or
-        behind. Number, 0 to 0.6; default: 0.15.
+        """Largest share by which the radius differs between strands of a clump. It also shifts strands along the curl,
+        by up to half a turn at 1. Number, 0 to 0.6; default: 0.15.
         """
         value: float = self._get('frizz')
         return value
@@ -964,16 +980,16 @@ class Curl(Table):
 
 
 class Ponytail(Table):
-    """A ponytail: hair goes along the head to one place, through a band there, and falls from it.
+    """A ponytail: hair runs along the head to a band, passes through it and falls from there.
 
-    A strand too short to reach it ends on the way. `[free] tie` holds the hair there when it moves.
+    A strand too short to reach the band ends on the way. To hold the hair there when it moves, add `[free.tie]`.
     """
 
     __slots__ = ()
 
     @property
     def at(self) -> tuple[float, float, float]:
-        """The middle of the band, in head space, at least `radius` away from the skin. 3 numbers (cm); must be given."""
+        """Middle of the band in head space, at least `radius` away from the skin. 3 numbers (cm); must be given."""
         value: tuple[float, float, float] = self._get('at')
         return value
 
@@ -993,7 +1009,7 @@ class Ponytail(Table):
 
     @property
     def direction(self) -> tuple[float, float, float]:
-        """The way that hair takes through the band, of any length but 0. 3 numbers; default: [-1, 0.2, 0]."""
+        """Direction of the hair through the band. Any length except 0. 3 numbers; default: [-1, 0.2, 0]."""
         value: tuple[float, float, float] = self._get('direction')
         return value
 
@@ -1003,7 +1019,7 @@ class Ponytail(Table):
 
 
 class Cut(Table):
-    """A cut: hair on the side of the plane that `normal` points to is taken off."""
+    """A cut. It removes the hair on the side of the plane that `normal` points to."""
 
     __slots__ = ()
 
@@ -1019,7 +1035,9 @@ class Cut(Table):
 
     @property
     def normal(self) -> tuple[float, float, float]:
-        """Toward the hair taken off, of any length but 0: (0, -1, 0) cuts level. 3 numbers; must be given."""
+        """Direction toward the removed hair. Any length except 0; (0, -1, 0) cuts horizontally. 3 numbers; must be
+        given.
+        """
         value: tuple[float, float, float] = self._get('normal')
         return value
 
@@ -1029,7 +1047,7 @@ class Cut(Table):
 
     @property
     def region(self) -> Literal["top", "sides", "back", "fringe"] | None:
-        """The region whose hair it cuts. "top", "sides", "back" or "fringe"; default: all."""
+        """The region whose hair is cut. "top", "sides", "back" or "fringe"; default: all."""
         value: Literal["top", "sides", "back", "fringe"] | None = self._get('region')
         return value
 
@@ -1039,9 +1057,9 @@ class Cut(Table):
 
     @property
     def shortest(self) -> float:
-        """No strand is made shorter than this: in the paper's equations (6) to (8) a strand of length L feels c_k |F| =
-        (3 dt^2 / 2 lambda) |F| / (k L^2), and a stubble would be too quick for the time step. Number above 0 (cm);
-        default: 2.5.
+        """Minimum length of a strand after the cut. Very short strands swing too fast for the time step: by the paper's
+        equations (6) to (8), a strand of length L feels c_k |F| = (3 dt^2 / 2 lambda) |F| / (k L^2). Number above 0
+        (cm); default: 2.5.
         """
         value: float = self._get('shortest')
         return value

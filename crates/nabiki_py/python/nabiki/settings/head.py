@@ -11,14 +11,14 @@ __all__ = ["BodySettings", "HeadSettings", "MotionSource"]
 
 
 class HeadSettings(Table):
-    """The head that hair grows on: the built-in bust, or one out of a file."""
+    """The head that hair grows on: the built-in bust, or a mesh from a file."""
 
     __slots__ = ()
 
     @property
     def ellipsoid(self) -> str | dict[str, Any]:
-        """E: fitted to the part of the head where hair grows, or given in head space. "fit" or a table of Ellipsoid
-        (cm); default: "fit".
+        """The head ellipsoid E: fitted to the part of the head where hair grows, or given in head space. "fit" or a
+        table of Ellipsoid (cm); default: "fit".
         """
         value: str | dict[str, Any] = self._get('ellipsoid')
         return value
@@ -29,7 +29,9 @@ class HeadSettings(Table):
 
     @property
     def shell(self) -> float:
-        """C, in which the pseudo-force may hold, is E scaled by this. Number above 1; default: 1.25."""
+        """Scale of the shell C around the ellipsoid E. The pseudo-force acts only within this shell; a larger value
+        reaches farther from the head. Number above 1; default: 1.25.
+        """
         value: float = self._get('shell')
         return value
 
@@ -48,7 +50,7 @@ class HeadSettings(Table):
 
     @property
     def mesh(self) -> str:
-        """A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Path; must be given."""
+        """The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Path; must be given."""
         value: str = self._get('mesh')
         return value
 
@@ -58,7 +60,7 @@ class HeadSettings(Table):
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Groups, objects or nodes of the file to keep; all if empty. List of texts; default: none."""
+        """Groups, objects or nodes of the file to use. Uses all if empty. List of texts; default: none."""
         value: tuple[str, ...] = self._get('groups')
         return value
 
@@ -68,7 +70,9 @@ class HeadSettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says, or cm."""
+        """Length unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says,
+        or cm.
+        """
         value: str | float | None = self._get('unit')
         return value
 
@@ -98,8 +102,8 @@ class HeadSettings(Table):
 
     @property
     def origin(self) -> tuple[float, float, float] | None:
-        """Point of the file that becomes the origin of head space, in the file's unit. Left out, it is the centre of the
-        fitted ellipsoid, or the file's own origin where the ellipsoid is given. 3 numbers; default: the ellipsoid's
+        """Point of the file that becomes the origin of head space, in the file's unit. By default the centre of the
+        fitted ellipsoid, or the file's own origin if you give an ellipsoid. 3 numbers; default: the ellipsoid's
         centre.
         """
         value: tuple[float, float, float] | None = self._get('origin')
@@ -111,14 +115,14 @@ class HeadSettings(Table):
 
 
 class MotionSource(Table):
-    """Which file moves the head, and what that file cannot say itself."""
+    """The file that moves the head, and what the file does not contain."""
 
     __slots__ = ()
 
     @property
     def file(self) -> str:
-        """A .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv with the columns t_s, px_m, py_m,
-        pz_m (or _cm, _mm), qx, qy, qz, qw. Path; default: none.
+        """The motion: a .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv. A .csv has the
+        columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw. Path; default: none.
         """
         value: str = self._get('file')
         return value
@@ -129,8 +133,8 @@ class MotionSource(Table):
 
     @property
     def skeleton(self) -> str | None:
-        """File of the skeleton that the motion moves: the .asf of an .amc, the .tof with the skeleton of a .tof
-        animation. Others have none. Path; default: none.
+        """Skeleton file of the motion: the .asf of an .amc, or the .tof with the skeleton of a .tof animation. Other
+        formats have none. Path; default: none.
         """
         value: str | None = self._get('skeleton')
         return value
@@ -141,7 +145,7 @@ class MotionSource(Table):
 
     @property
     def node(self) -> str:
-        """Joint, bone or node that carries the head; capitals do not count. Not used for .csv. Text; default: "Head"."""
+        """Joint, bone or node that carries the head. Case does not matter. Not used for .csv. Text; default: "Head"."""
         value: str = self._get('node')
         return value
 
@@ -151,7 +155,7 @@ class MotionSource(Table):
 
     @property
     def clip(self) -> str:
-        """Animation of a .glb or .gltf by name; may stay empty where there is one only. Text; default: none."""
+        """Name of the animation in a .glb or .gltf. Needed only if there are several. Text; default: none."""
         value: str = self._get('clip')
         return value
 
@@ -161,9 +165,9 @@ class MotionSource(Table):
 
     @property
     def unit_cm(self) -> float | None:
-        """Length of the file's unit. Needed for .bvh, .tof and .abc; .glb and .gltf are in metres unless said here, .amc
-        in inches times the `length` of its .asf; .csv and USD name their own. Number above 0 (cm); default: what the
-        file says.
+        """Length of the file's unit. Required for .bvh, .tof and .abc. A .glb or .gltf is in metres unless you set this,
+        an .amc in inches times the `length` of its .asf. A .csv or USD file names its own unit. Number above 0 (cm);
+        default: what the file says.
         """
         value: float | None = self._get('unit_cm')
         return value
@@ -174,8 +178,8 @@ class MotionSource(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Up axis of the file's world. Needed for .bvh, .amc, .tof and .csv; +y in .glb, .gltf and .abc; USD names its
-        own. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
+        """Up axis of the file's world. Required for .bvh, .amc, .tof and .csv. It is +y in .glb, .gltf and .abc; USD
+        files name their own. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
@@ -186,11 +190,10 @@ class MotionSource(Table):
 
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Axis of the file's world that the character faces while the joint is unturned. Needed but for .glb and .gltf:
-        +z in those, whose node is unturned as the file's still pose has it; and but for a USD layer or Alembic
-        archive that the mesh is from, too, which face as the mesh does. A bone of an .amc is unturned as the .asf has
-        it, a joint of a .tof where its axes are the world's. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the
-        file says.
+        """Axis of the file's world along which the character looks while the joint is unturned. Not required for .glb
+        and .gltf, where it is +z in the still pose, nor for a USD layer or Alembic archive that the mesh is from too.
+        A bone of an .amc is unturned in the rest pose of the .asf, a joint of a .tof when its axes are those of the
+        world. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
@@ -201,7 +204,7 @@ class MotionSource(Table):
 
     @property
     def frames_per_second(self) -> float | None:
-        """Samples a second. Needed for an .amc, which seldom says; all others say it themselves. Number above 0 (a
+        """Sample rate of the file. Required for most .amc files; all other formats contain it. Number above 0 (per
         second); default: what the file says.
         """
         value: float | None = self._get('frames_per_second')
@@ -213,7 +216,9 @@ class MotionSource(Table):
 
     @property
     def skip(self) -> int:
-        """Samples dropped at the start, as of a T-pose. Not for .glb and .gltf. Whole number (samples); default: 0."""
+        """Number of samples to drop at the start, for example a T-pose. Not for .glb and .gltf. Whole number (samples);
+        default: 0.
+        """
         value: int = self._get('skip')
         return value
 
@@ -223,8 +228,8 @@ class MotionSource(Table):
 
     @property
     def positions(self) -> Literal["linear", "cubic"]:
-        """How positions between two samples are found. Rotations turn at a constant rate (slerp). Not for .glb and
-        .gltf, whose channels say it themselves. "linear" or "cubic"; default: "cubic".
+        """How to interpolate positions between two samples. Rotations turn at a constant rate (slerp). Not for .glb and
+        .gltf, whose channels define it. "linear" or "cubic"; default: "cubic".
         """
         value: Literal["linear", "cubic"] = self._get('positions')
         return value
@@ -235,7 +240,7 @@ class MotionSource(Table):
 
     @property
     def speed(self) -> float:
-        """How fast the motion is played: 0.25 takes four times as long. Number, 0.01 to 100; default: 1."""
+        """Playback speed of the motion. 0.25 makes it four times as long. Number, 0.01 to 100; default: 1."""
         value: float = self._get('speed')
         return value
 
@@ -245,8 +250,9 @@ class MotionSource(Table):
 
     @property
     def smoothing(self) -> float:
-        """Deviation of the bell that places and turns are averaged by, in frames of the scene; 0: as they are.
-        Recordings tremble, and hair feels accelerations. Number, 0 to 240 (frames); default: 0.
+        """Standard deviation of the bell that averages positions and rotations, in frames of the scene. Raise it if a
+        recording trembles, since hair feels accelerations. 0 leaves the motion as it is. Number, 0 to 240 (frames);
+        default: 0.
         """
         value: float = self._get('smoothing')
         return value
@@ -257,7 +263,7 @@ class MotionSource(Table):
 
     @property
     def start_at_origin(self) -> bool:
-        """Whether the first frame is moved to the world's origin and turned about y to face +x. True or false; default:
+        """Whether to move the first frame to the world's origin and turn it about y to face +x. True or false; default:
         false.
         """
         value: bool = self._get('start_at_origin')
@@ -269,10 +275,9 @@ class MotionSource(Table):
 
     @property
     def bind_at_start(self) -> bool:
-        """Whether the mesh stands in its file as the first frame has it, wherever that is and however it is turned
-        there, as one out of the same scene does: it is then carried on from there. Beside a joint of the same USD
-        layer it stands as the skeleton binds it. Hair that grows on a head stands there as well. True or false;
-        default: false.
+        """Whether the mesh is already placed as the first frame has it, as in a file that contains both mesh and motion.
+        The motion then carries the mesh on from there. With a joint of the same USD layer, the mesh is placed as the
+        skeleton binds it. Hair that grows on the head goes along. True or false; default: false.
         """
         value: bool = self._get('bind_at_start')
         return value
@@ -283,13 +288,13 @@ class MotionSource(Table):
 
 
 class BodySettings(Table):
-    """Something besides the head that hair does not enter, in the free form."""
+    """An object besides the head that hair keeps out of in the free form."""
 
     __slots__ = ()
 
     @property
     def mesh(self) -> str:
-        """A .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. It must be given. Path; default: none."""
+        """The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required. Path; default: none."""
         value: str = self._get('mesh')
         return value
 
@@ -299,7 +304,7 @@ class BodySettings(Table):
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Groups, objects or nodes of the file to keep; all if empty. List of texts; default: none."""
+        """Groups, objects or nodes of the file to use. Uses all if empty. List of texts; default: none."""
         value: tuple[str, ...] = self._get('groups')
         return value
 
@@ -309,7 +314,9 @@ class BodySettings(Table):
 
     @property
     def unit(self) -> str | float | None:
-        """Unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says, or cm."""
+        """Length unit of the file. "mm", "cm", "dm", "m", "in" or "ft", or number above 0; default: what the file says,
+        or cm.
+        """
         value: str | float | None = self._get('unit')
         return value
 
@@ -358,7 +365,7 @@ class BodySettings(Table):
 
     @property
     def with_head(self) -> bool:
-        """Whether it is worn: it stands in head space and goes with the head. True or false; default: false."""
+        """Whether the body is worn: it is placed in head space and moves with the head. True or false; default: false."""
         value: bool = self._get('with_head')
         return value
 
@@ -368,8 +375,8 @@ class BodySettings(Table):
 
     @property
     def solid(self) -> bool:
-        """Whether hair keeps out of it; otherwise it is drawn and no more, and may be open. True or false; default:
-        true.
+        """Whether hair keeps out of the body. If false, the body is only drawn, and its mesh may be open. True or false;
+        default: true.
         """
         value: bool = self._get('solid')
         return value
@@ -380,7 +387,7 @@ class BodySettings(Table):
 
     @property
     def margin(self) -> float:
-        """How far from its skin nodes are kept. Number, 0 to 5 (cm); default: 0.1."""
+        """Distance that nodes keep from its skin. Number, 0 to 5 (cm); default: 0.1."""
         value: float = self._get('margin')
         return value
 
@@ -390,7 +397,9 @@ class BodySettings(Table):
 
     @property
     def friction(self) -> float:
-        """The part of a push that sliding hair loses of its speed. Number, 0 to 10; default: 0.1."""
+        """Friction of sliding hair: the share of the push that it loses as speed along the skin. Number, 0 to 10;
+        default: 0.1.
+        """
         value: float = self._get('friction')
         return value
 
@@ -400,7 +409,7 @@ class BodySettings(Table):
 
     @property
     def static_friction(self) -> float:
-        """The same for hair that does not slide, at least `friction`. Number, 0 to 10; default: 0.15."""
+        """Friction of hair that does not slide, at least `friction`. Number, 0 to 10; default: 0.15."""
         value: float = self._get('static_friction')
         return value
 
@@ -410,7 +419,7 @@ class BodySettings(Table):
 
     @property
     def shown(self) -> bool:
-        """Whether it is drawn. What is not shown hides nothing and throws no shadow. True or false; default: true."""
+        """Whether the body is drawn. A hidden body hides nothing and casts no shadow. True or false; default: true."""
         value: bool = self._get('shown')
         return value
 
@@ -420,7 +429,7 @@ class BodySettings(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour in pictures. The default is a grey. 3 numbers, each 0 to 1 (sRGB); default: [0.42, 0.46, 0.5]."""
+        """Colour in pictures. The default is a grey. 3 numbers, each 0 to 1 (sRGB); default: [0.42, 0.46, 0.5]."""
         value: tuple[float, float, float] = self._get('colour')
         return value
 

@@ -26,7 +26,7 @@ class Motion(Table):
 
     @property
     def form(self) -> Literal["paper", "free"]:
-        """The equations that hair moves by. "paper" or "free"; default: "paper"."""
+        """The equations of the motion. "paper" or "free"; default: "paper"."""
         value: Literal["paper", "free"] = self._get('form')
         return value
 
@@ -36,7 +36,7 @@ class Motion(Table):
 
     @property
     def frames(self) -> int:
-        """Frames after the rest frame 0 (N_f). Whole number, 1 to 10000000; default: 100."""
+        """Number of frames after the rest frame 0 (N_f). Whole number, 1 to 10000000; default: 100."""
         value: int = self._get('frames')
         return value
 
@@ -46,8 +46,8 @@ class Motion(Table):
 
     @property
     def frame_rate(self) -> float:
-        """Frames in a second: how fast they are shown, and where a recorded head is in each. Hair moves by frames: of
-        its settings only those in units of the world depend on this. Number above 0 (a second); default: 24.
+        """Frames per second, for playback and for sampling a recorded head. Hair moves by frames, so only settings in
+        world units such as "1 g" depend on this. Number above 0 (per second); default: 24.
         """
         value: float = self._get('frame_rate')
         return value
@@ -58,7 +58,9 @@ class Motion(Table):
 
     @property
     def time_step(self) -> float:
-        """Delta t of equation (7), in a unit of the step's own: a frame is one step. Number above 0; default: 0.1."""
+        """Delta t of equation (7), in the method's own unit. A frame is one step; a larger value makes hair swing
+        faster. Number above 0; default: 0.1.
+        """
         value: float = self._get('time_step')
         return value
 
@@ -68,8 +70,8 @@ class Motion(Table):
 
     @property
     def slow(self) -> float:
-        """Slow motion of the hair: 4 is hair filmed at four times the frame rate. The head and the fields keep their
-        pace. Number, 0.1 to 100 (times); default: 1.
+        """Slow motion of the hair: 4 shows hair as if filmed at four times the frame rate. The head and the fields keep
+        their pace. Number, 0.1 to 100 (times); default: 1.
         """
         value: float = self._get('slow')
         return value
@@ -80,8 +82,8 @@ class Motion(Table):
 
     @property
     def linear_density(self) -> float:
-        """lambda of equation (6): the mass of a centimetre of hair, in the units of the force. Number above 0 (per cm);
-        default: 0.05.
+        """Mass of 1 cm of hair, in the units of the force: lambda of equation (6). Number above 0 (per cm); default:
+        0.05.
         """
         value: float = self._get('linear_density')
         return value
@@ -92,9 +94,9 @@ class Motion(Table):
 
     @property
     def inertia_length_floor(self) -> float:
-        """Hair shorter than this has the inertia of hair this long: its longer neighbours hold it. 0, the paper's way,
-        gives every strand the inertia of its own length, and short hair very fast swings. Number of at least 0 (cm);
-        default: 0.
+        """Hair shorter than this gets the inertia of hair this long, as if longer neighbours held it. Raise it to calm
+        short hair, which otherwise swings very fast. 0, as in the paper, gives each strand the inertia of its own
+        length. Number of at least 0 (cm); default: 0.
         """
         value: float = self._get('inertia_length_floor')
         return value
@@ -105,10 +107,10 @@ class Motion(Table):
 
     @property
     def straighten(self) -> float:
-        """Segments that hang within this of the vertical at rest are made to hang exactly so, and are then free to swing
-        in the plane of any force (section 4.2). A segment nearly vertical is not: it keeps the plane of its small
-        lean, and hair that leans this way and that is blown apart. 0, the paper's way, leaves the hair as it is.
-        Number, 0 to 45 (degrees); default: 0.
+        """Makes segments exactly vertical that are within this angle of the vertical at rest. They can then swing in the
+        plane of any force (section 4.2). Raise it if straight hair is blown apart: a nearly vertical segment
+        otherwise keeps the plane of its small lean. 0, as in the paper, leaves the hair as it is. Number, 0 to 45
+        (degrees); default: 0.
         """
         value: float = self._get('straighten')
         return value
@@ -119,7 +121,7 @@ class Motion(Table):
 
     @property
     def force_space(self) -> Literal["world", "head"]:
-        """Space of the forces; it matters where the head turns. "world" or "head"; default: "world"."""
+        """The space of the forces. It matters if the head turns. "world" or "head"; default: "world"."""
         value: Literal["world", "head"] = self._get('force_space')
         return value
 
@@ -129,18 +131,19 @@ class Motion(Table):
 
 
 class FreeSettings(Table):
-    """How hair keeps its shape and settles, in the free form. Strengths are in the unit of the force F, or in one of the
-    world.
+    """How hair keeps its shape and settles in the free form. Strengths are in F, the unit of the wind, or in world
+    units.
     """
 
     __slots__ = ()
 
     @property
     def stiffness(self) -> float | str | tuple[float | str, ...]:
-        """How firmly hair keeps its shape: at 36 times the wind, hair of 18 cm bends within about 6 cm. "4.5 cm" is hair
-        that bends under its own `gravity` within that length, as real hair does. One, or a list from root to tip. K
-        of docs/motion-forms.md: EI = 3/8 A L K d^2, with d `hair.segment_length`. Hair bends alike however finely it
-        is cut. Number, 0 to 1000000000, or "... cm", or a list of them; default: [12000, 1000].
+        """How firmly hair keeps its shape: at 36 times the strength of the wind, hair of 18 cm bends over about 6 cm.
+        "4.5 cm" is hair that bends under its own `gravity` over that length, like real hair. One value, or a list
+        from root to tip. In docs/motion-forms.md this is K, with EI = 3/8 A L K d^2 and d = `hair.segment_length`.
+        The number of segments does not change how hair bends. Number, 0 to 1000000000, or "... cm", or a list of
+        them; default: [12000, 1000].
         """
         value: float | str | tuple[float | str, ...] = self._get('stiffness')
         return value
@@ -151,10 +154,10 @@ class FreeSettings(Table):
 
     @property
     def hold(self) -> float | str | tuple[float | str, ...]:
-        """How firmly hair keeps its place on the head, as with hair spray. "0.3 g" pulls with so much of its weight on
-        the earth. One number, or a list from root to tip. H: turns segments toward their rest direction on the head.
-        Against a force F, limp hair settles along F + H r. Number, 0 to 1000000000, or "... g", or a list of them;
-        default: 30.
+        """How firmly hair returns to its groomed place on the head, like hair spray. "0.3 g" pulls with 0.3 times the
+        weight of the hair on earth. One value, or a list from root to tip. In docs/motion-forms.md this is H: it
+        turns segments toward their rest direction on the head. Against a force F, limp hair settles along F + H r.
+        Number, 0 to 1000000000, or "... g", or a list of them; default: 30.
         """
         value: float | str | tuple[float | str, ...] = self._get('hold')
         return value
@@ -165,9 +168,10 @@ class FreeSettings(Table):
 
     @property
     def settle(self) -> float | str | tuple[float | str, ...]:
-        """Frames in which a swing falls to 1/e: 7 is wet hair, 20 swings over once, 60 goes on waving, 0 has no air.
-        "0.8 s" are as many as pass in it. One number, or a list from root to tip, interpolated in frames: next to a 0
-        hair hardly swings. Number of at least 0 or "... s" or a list of them (frames); default: 20.
+        """Number of frames in which a swing falls to 1/e: 7 looks like wet hair, 20 swings over once, 60 keeps waving, 0
+        removes the air. "0.8 s" is a time instead of a number of frames. One value, or a list from root to tip,
+        interpolated in frames: hair next to a 0 hardly swings. Number of at least 0 or "... s" or a list of them
+        (frames); default: 20.
         """
         value: float | str | tuple[float | str, ...] = self._get('settle')
         return value
@@ -178,8 +182,8 @@ class FreeSettings(Table):
 
     @property
     def gravity(self) -> float | str:
-        """How fast moved hair falls. A strength, or "1 g" for that of the earth, 981 cm/s^2 at `motion.frame_rate`;
-        "earth" is the same. Hair at rest does not sag. Number, 0 to 1000000000, or "... g" or "earth"; default: 100.
+        """How fast moved hair falls. Hair at rest does not sag. Give a strength in F, or "1 g" or "earth" for 981 cm/s^2
+        at `motion.frame_rate`. Number, 0 to 1000000000, or "... g" or "earth"; default: 100.
         """
         value: float | str = self._get('gravity')
         return value
@@ -190,9 +194,9 @@ class FreeSettings(Table):
 
     @property
     def drag(self) -> float | tuple[float, ...]:
-        """How far a head that moves leaves hair behind: 0 rides along, 1 is as in life, more exaggerates. One number, or
-        a list from root to tip. It weighs the head's turn, its acceleration and the pull of the still air. Number, 0
-        to 10, or list of numbers, each 0 to 10; default: 1.
+        """How far a moving head leaves the hair behind: 0 moves hair with the head, 1 is realistic, more exaggerates. It
+        scales the effect of turns, accelerations and still air. One number, or a list from root to tip. Number, 0 to
+        10, or list of numbers, each 0 to 10; default: 1.
         """
         value: float | tuple[float, ...] = self._get('drag')
         return value
@@ -203,8 +207,8 @@ class FreeSettings(Table):
 
     @property
     def pseudo_force(self) -> bool:
-        """Whether `[pseudo_force]` weakens the field before the head, as in the paper's form. True or false; default:
-        false.
+        """Whether `[pseudo_force]` weakens the wind in front of the head, as in the paper's form. True or false;
+        default: false.
         """
         value: bool = self._get('pseudo_force')
         return value
@@ -215,7 +219,7 @@ class FreeSettings(Table):
 
     @property
     def variation(self) -> LockVariation:
-        """How locks differ, so that they part in the wind."""
+        """Differences between locks, so that they part in the wind."""
         return LockVariation(self._scene, self._key_of('variation'))
 
     @variation.setter
@@ -224,7 +228,7 @@ class FreeSettings(Table):
 
     @property
     def tie(self) -> Tie:
-        """A band that ties hair: strands that pass it at rest are held from the root to the band."""
+        """A band that ties hair. Strands that pass it at rest are held from the root to the band."""
         return Tie(self._scene, self._key_of('tie'))
 
     @tie.setter
@@ -233,8 +237,8 @@ class FreeSettings(Table):
 
     @property
     def substeps(self) -> int | None:
-        """Steps that a frame is divided into. Left open, a scene takes as many as weight and stiffness need, and at
-        least 2. Whole number, 1 to 32; default: by weight and stiffness.
+        """Number of steps per frame. By default a scene takes as many as weight and stiffness need, at least 2. Raise it
+        if fast contact is missed. Whole number, 1 to 32; default: as many as needed.
         """
         value: int | None = self._get('substeps')
         return value
@@ -247,18 +251,18 @@ class FreeSettings(Table):
 class LockVariation(Table):
     """How locks differ, so that they part in the wind instead of moving as one.
 
-    A lock is the hair of a clump, as the groom has them, and keeps its ways in every take: they are drawn from its
-    place on the head and the seed. Hair that takes n times the air is pushed n times as hard by the wind, and settles
-    n times as fast.
+    A lock is the hair of a clump of the groom. Its differences are drawn from its place on the head and the seed, so
+    they are the same in each take. Hair that catches n times as much air is pushed n times as hard by the wind and
+    settles n times as fast.
     """
 
     __slots__ = ()
 
     @property
     def air(self) -> float:
-        """How much the air that a lock takes differs from lock to lock: the standard deviation of its logarithm. 0.35
-        lets a sixth of the locks take 1.4 times the air, or more, and a sixth 0.7 times, or less. Number, 0 to 1;
-        default: 0.35.
+        """How much locks differ in the air they catch, so that they part in changing wind. It is the standard deviation
+        of the logarithm: at 0.35, a sixth of the locks catches at least 1.4 times the air, and a sixth at most 0.7
+        times. Number, 0 to 1; default: 0.35.
         """
         value: float = self._get('air')
         return value
@@ -269,8 +273,8 @@ class LockVariation(Table):
 
     @property
     def flutter(self) -> float:
-        """How much the wind on a lock swells and turns by itself, in strength and in radians (both root mean square), in
-        a rhythm of the lock's own. This is what parts locks in an even wind. Number, 0 to 0.5; default: 0.3.
+        """How much the wind on a lock varies by itself. It changes in strength and direction (root mean square, in
+        radians), in the lock's own rhythm. This is what parts locks in a steady wind. Number, 0 to 0.5; default: 0.3.
         """
         value: float = self._get('flutter')
         return value
@@ -281,7 +285,7 @@ class LockVariation(Table):
 
     @property
     def flutter_frames(self) -> float:
-        """Frames in which it does so once, about. Number, 2 to 10000 (frames); default: 24."""
+        """Approximate number of frames of one flutter. Number, 2 to 10000 (frames); default: 24."""
         value: float = self._get('flutter_frames')
         return value
 
@@ -291,9 +295,7 @@ class LockVariation(Table):
 
     @property
     def stiffness(self) -> float:
-        """How much stiffness differs from lock to lock: the standard deviation of its logarithm. Number, 0 to 1;
-        default: 0.2.
-        """
+        """How much locks differ in stiffness: the standard deviation of its logarithm. Number, 0 to 1; default: 0.2."""
         value: float = self._get('stiffness')
         return value
 
@@ -303,8 +305,8 @@ class LockVariation(Table):
 
     @property
     def strands(self) -> float:
-        """How much the strands of a lock differ among themselves, as a part of how locks differ. What is much frays
-        locks to frizz. Number, 0 to 1; default: 0.2.
+        """How much the strands within a lock differ, as a share of how locks differ. Large values fray locks to frizz.
+        Number, 0 to 1; default: 0.2.
         """
         value: float = self._get('strands')
         return value
@@ -315,7 +317,7 @@ class LockVariation(Table):
 
     @property
     def flyaways(self) -> float:
-        """Share of strands that take three times the air. Number, 0 to 1; default: 0.02."""
+        """Share of strands that catch three times as much air. Number, 0 to 1; default: 0.02."""
         value: float = self._get('flyaways')
         return value
 
@@ -325,8 +327,8 @@ class LockVariation(Table):
 
     @property
     def size(self) -> float | None:
-        """Width of a lock at the scalp. Left open, that of the groom's clumps, so that clumps are locks; 1.2 cm for hair
-        of a file. Number, 0.1 to 100 (cm); default: the groom's clumps.
+        """Width of a lock at the scalp. By default that of the groom's clumps, so that clumps are locks, or 1.2 cm for
+        hair from a file. Number, 0.1 to 100 (cm); default: the groom's clumps.
         """
         value: float | None = self._get('size')
         return value
@@ -337,7 +339,7 @@ class LockVariation(Table):
 
     @property
     def seed(self) -> int:
-        """Another number, other locks that catch the wind. Whole number; default: 0."""
+        """Random seed. Change it to make other locks catch the wind. Whole number; default: 0."""
         value: int = self._get('seed')
         return value
 
@@ -347,19 +349,19 @@ class LockVariation(Table):
 
 
 class Tie(Table):
-    """A band that ties hair. A strand that passes it at rest goes with the head up to the band, and moves beyond it as
-    if it were rooted there.
+    """A band that ties hair. A strand that passes the band at rest moves with the head up to it. Beyond the band it
+    moves as if rooted there.
 
-    Segments up to the node nearest to the band are held: their inverse mass is 0. Lengths and lists from root to tip
-    count from there. A strand that passes between two nodes, neither near enough, is tied at the nearer one, but
-    never at its root.
+    Segments up to the node nearest to the band are held: their inverse mass is 0. Lengths, and lists from root to
+    tip, count from there. A strand that passes with no node close enough is tied at the nearer node of that segment,
+    but never at its root.
     """
 
     __slots__ = ()
 
     @property
     def at(self) -> tuple[float, float, float]:
-        """Middle of the band, in head space. 3 numbers (cm); must be given."""
+        """Middle of the band in head space. 3 numbers (cm); must be given."""
         value: tuple[float, float, float] = self._get('at')
         return value
 
@@ -369,7 +371,7 @@ class Tie(Table):
 
     @property
     def within(self) -> float:
-        """Strands that pass this near are tied. Number above 0 (cm); must be given."""
+        """Largest distance from the band of the strands to tie. Number above 0 (cm); must be given."""
         value: float = self._get('within')
         return value
 
@@ -379,13 +381,13 @@ class Tie(Table):
 
 
 class Contact(Table):
-    """How hair and a body touch, in the free form."""
+    """How hair and a body touch in the free form."""
 
     __slots__ = ()
 
     @property
     def margin(self) -> float:
-        """How far from the skin nodes are kept. A node that lies closer at rest is kept where it lies. Number, 0 to 5
+        """Distance that nodes keep from the skin. A node that is closer at rest keeps its rest distance. Number, 0 to 5
         (cm); default: 0.1.
         """
         value: float = self._get('margin')
@@ -397,8 +399,8 @@ class Contact(Table):
 
     @property
     def friction(self) -> float:
-        """The part of a push that sliding hair loses of its speed along the skin (Coulomb). Number, 0 to 10; default:
-        0.1.
+        """Friction of sliding hair: the share of the push that it loses as speed along the skin (Coulomb). Number, 0 to
+        10; default: 0.1.
         """
         value: float = self._get('friction')
         return value
@@ -409,8 +411,8 @@ class Contact(Table):
 
     @property
     def static_friction(self) -> float:
-        """The same for hair that does not slide, at least `friction`: it stays as long as what would move it is below
-        this part of the push. Number, 0 to 10; default: 0.15.
+        """Friction of hair that does not slide, at least `friction`. Hair starts to slide when the force along the skin
+        exceeds this share of the push. Number, 0 to 10; default: 0.15.
         """
         value: float = self._get('static_friction')
         return value
@@ -421,19 +423,17 @@ class Contact(Table):
 
 
 class NeighbourForces(Table):
-    """Hair against hair, through a grid that a few strands, the carriers, fill as they move.
+    """Hair against hair. A few strands, the carriers, fill a grid as they move.
 
-    Carriers write density and mean velocity; in the next frame every strand, carriers too, reads them. So a strand
-    depends on itself and the carriers only, and any subset of the hair moves as within the whole.
+    Carriers write density and mean velocity to the grid. In the next frame all strands read them. A strand therefore
+    depends only on itself and the carriers, and any subset of the hair moves as it does among all.
     """
 
     __slots__ = ()
 
     @property
     def carriers(self) -> int:
-        """Number of carriers: the first strands of the farthest-first order. Whole number, 1 to 4096 (strands); default:
-        256.
-        """
+        """Number of carriers: the first strands of an even selection. Whole number, 1 to 4096 (strands); default: 256."""
         value: int = self._get('carriers')
         return value
 
@@ -443,8 +443,8 @@ class NeighbourForces(Table):
 
     @property
     def pressure(self) -> float:
-        """How firmly hair keeps its volume: pushes it out of places fuller than at rest. In the unit of F where the
-        density falls by that of the hair at rest over one cell. Number of at least 0; default: 40.
+        """How firmly hair keeps its volume: it pushes hair out of places that are fuller than at rest. In the unit F,
+        where the density falls by that of hair at rest over one cell. Number of at least 0; default: 40.
         """
         value: float = self._get('pressure')
         return value
@@ -455,8 +455,8 @@ class NeighbourForces(Table):
 
     @property
     def cohesion(self) -> float:
-        """How firmly strands drag their neighbours along: pulls a node toward the mean velocity about it, in the unit of
-        F for each cm a frame. Number of at least 0; default: 40.
+        """How firmly strands drag their neighbours along: raise it if neighbours drift apart. It pulls a node toward the
+        mean velocity around it, in the unit F per cm per frame. Number of at least 0; default: 40.
         """
         value: float = self._get('cohesion')
         return value
@@ -467,7 +467,7 @@ class NeighbourForces(Table):
 
     @property
     def cell(self) -> float:
-        """Edge of a cell of the grid. Number, 0.5 to 20 (cm); default: 2."""
+        """Edge length of a grid cell. Number, 0.5 to 20 (cm); default: 2."""
         value: float = self._get('cell')
         return value
 
@@ -477,16 +477,16 @@ class NeighbourForces(Table):
 
 
 class PseudoForce(Table):
-    """The pseudo-force: it weakens the wind before the head, the paper's stand-in for collisions. The default is Table 1
-    of the paper.
+    """The pseudo-force: it weakens the wind in front of the head, in place of collisions. The defaults are Table 1 of
+    the paper.
     """
 
     __slots__ = ()
 
     @property
     def alpha(self) -> float:
-        """alpha of equation (4), the cosine that bounds Gamma: at 1 all of the shell, at -1 only the line against the
-        wind. Number, -1 to 1; default: -0.75.
+        """Cosine that bounds the domain Gamma: alpha of equation (4). 1 covers the whole shell, -1 only the line against
+        the wind. Number, -1 to 1; default: -0.75.
         """
         value: float = self._get('alpha')
         return value
@@ -497,9 +497,10 @@ class PseudoForce(Table):
 
     @property
     def coefficients(self) -> tuple[float, ...]:
-        """eps_i for the segments i = 1, 2, ... from the root on; the last one goes on to the tip. Where segments are not
-        `hair.segment_length` long, i is the distance along the strand counted in it. List of numbers, each above 0,
-        at most 1; default: [0.01, 0.01, 0.1, 0.1, 0.2, 0.2, 0.2, 0.2, 0.4, 0.4, 0.4, 0.4, 0.8, 0.8, 0.8, 1].
+        """Factor eps_i on the wind for each segment, from the root on. The last one continues to the tip. If segments
+        are not `hair.segment_length` long, i counts the distance along the strand in that length. List of numbers,
+        each above 0, at most 1; default: [0.01, 0.01, 0.1, 0.1, 0.2, 0.2, 0.2, 0.2, 0.4, 0.4, 0.4, 0.4, 0.8, 0.8,
+        0.8, 1].
         """
         value: tuple[float, ...] = self._get('coefficients')
         return value
@@ -510,19 +511,19 @@ class PseudoForce(Table):
 
 
 class Disturbance(Table):
-    """Turns every strand a little, at random, every so many frames, in the paper's form.
+    """Turns each strand a little, at random and at regular intervals, in the paper's form.
 
-    The paper names neither its size nor its law. Here a strand is given one random turn of theta and one of phi,
-    uniform within `amplitude` at the tip and falling to nothing at the root, so that it stays a smooth curve; the
-    segments' speeds are left alone. The numbers depend on seed, strand and frame only.
+    The paper gives neither size nor law. Here a strand gets one random turn of theta and one of phi, uniform within
+    `amplitude` at the tip and falling to 0 at the root. It therefore stays a smooth curve. The speeds of the segments
+    do not change. The random numbers depend only on seed, strand and frame.
     """
 
     __slots__ = ()
 
     @property
     def every(self) -> int:
-        """Frames from one disturbance to the next. The paper has 10; every frame would be too much. Whole number of at
-        least 1 (frames); default: 10.
+        """Frames between two disturbances. The paper uses 10; a disturbance in each frame is too much. Whole number of
+        at least 1 (frames); default: 10.
         """
         value: int = self._get('every')
         return value
@@ -533,7 +534,9 @@ class Disturbance(Table):
 
     @property
     def from_(self) -> int:
-        """First frame that may be disturbed. The paper disturbs the last 60 of 100. Whole number (frame); default: 1."""
+        """First frame that may be disturbed. The paper disturbs the last 60 of 100 frames. Whole number (frame);
+        default: 1.
+        """
         value: int = self._get('from')
         return value
 
@@ -553,9 +556,8 @@ class Disturbance(Table):
 
     @property
     def over(self) -> int:
-        """Frames in which a disturbance sets in, at most `every`. At 1, the paper's way, it is there at once, and seen
-        as a jump; over more frames it comes and stays smoothly, and is the same in the end. Whole number of at least
-        1 (frames); default: 1.
+        """Number of frames over which a disturbance builds up, at most `every`. At 1, as in the paper, it is a visible
+        jump. More frames make it smooth, with the same end result. Whole number of at least 1 (frames); default: 1.
         """
         value: int = self._get('over')
         return value
@@ -566,7 +568,7 @@ class Disturbance(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the random numbers: another number, other turns. Whole number; default: 1."""
+        """Random seed of the turns. Whole number; default: 1."""
         value: int = self._get('seed')
         return value
 

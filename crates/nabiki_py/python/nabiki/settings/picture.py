@@ -22,13 +22,13 @@ __all__ = [
 
 
 class Picture(Table):
-    """What is drawn, and how."""
+    """How pictures are drawn."""
 
     __slots__ = ()
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height. 2 whole numbers, each 1 to 16384 (pixels); default: [960, 540]."""
+        """Width and height of the picture. 2 whole numbers, each 1 to 16384 (pixels); default: [960, 540]."""
         value: tuple[int, int] = self._get('size')
         return value
 
@@ -38,7 +38,9 @@ class Picture(Table):
 
     @property
     def antialiasing(self) -> Literal["coverage", "oversample"]:
-        """Exact shares of a pixel, or points of it, the paper's way. "coverage" or "oversample"; default: "coverage"."""
+        """How a hair gets its share of a pixel: exact coverage, or points as in the paper. "coverage" or "oversample";
+        default: "coverage".
+        """
         value: Literal["coverage", "oversample"] = self._get('antialiasing')
         return value
 
@@ -48,7 +50,9 @@ class Picture(Table):
 
     @property
     def samples(self) -> int:
-        """Points along each side of a pixel when oversampling. Whole number, 1 to 32; default: 4."""
+        """Points along each side of a pixel when oversampling. More give smoother edges and take longer. Whole number, 1
+        to 32; default: 4.
+        """
         value: int = self._get('samples')
         return value
 
@@ -58,7 +62,7 @@ class Picture(Table):
 
     @property
     def camera(self) -> Camera:
-        """Where the picture is taken from."""
+        """The camera."""
         return Camera(self._scene, self._key_of('camera'))
 
     @camera.setter
@@ -76,7 +80,7 @@ class Picture(Table):
 
     @property
     def lights(self) -> Tables[Light]:
-        """The lamps, at most 16: a warm key, a weak fill and two kickers by default."""
+        """The lamps, at most 16. By default a warm key light, a weak fill light and two kickers."""
         return Tables(self._scene, self._key_of('lights'), Light)
 
     @lights.setter
@@ -85,7 +89,7 @@ class Picture(Table):
 
     @property
     def sky(self) -> Sky:
-        """The light that comes from all around."""
+        """The light from all directions."""
         return Sky(self._scene, self._key_of('sky'))
 
     @sky.setter
@@ -113,7 +117,7 @@ class Picture(Table):
 
     @property
     def background(self) -> Background:
-        """What is behind it all."""
+        """What is behind hair and head."""
         return Background(self._scene, self._key_of('background'))
 
     @background.setter
@@ -122,7 +126,7 @@ class Picture(Table):
 
     @property
     def exposure(self) -> float:
-        """Brightness in photographic stops: each is a factor of 2. Number, -20 to 20 (stops); default: 0."""
+        """Brightness in photographic stops. Each stop is a factor of 2. Number, -20 to 20 (stops); default: 0."""
         value: float = self._get('exposure')
         return value
 
@@ -132,7 +136,7 @@ class Picture(Table):
 
     @property
     def tone_mapping(self) -> Literal["linear", "filmic"]:
-        """How scene light becomes display light in 8 and 16 bit pictures and in video. "linear" or "filmic"; default:
+        """How scene light becomes display light in 8 and 16 bit pictures and in movies. "linear" or "filmic"; default:
         "filmic".
         """
         value: Literal["linear", "filmic"] = self._get('tone_mapping')
@@ -144,8 +148,8 @@ class Picture(Table):
 
     @property
     def shutter(self) -> float:
-        """Part of the frame interval during which the shutter is open: 0 is a sharp picture, 0.5 a film camera's 180
-        degrees. Number, 0 to 1; default: 0.
+        """Share of the frame interval during which the shutter is open. 0 gives a sharp picture, 0.5 the motion blur of
+        a film camera with 180 degrees. Number, 0 to 1; default: 0.
         """
         value: float = self._get('shutter')
         return value
@@ -165,13 +169,13 @@ class Picture(Table):
 
 
 class Camera(Table):
-    """A camera on an orbit about the hair, or moving between two places of it."""
+    """A camera on an orbit around the hair, still or moving between two places."""
 
     __slots__ = ()
 
     @property
     def projection(self) -> Literal["perspective", "orthographic"]:
-        """How space becomes a picture. "perspective" or "orthographic"; default: "perspective"."""
+        """How space is projected onto the picture. "perspective" or "orthographic"; default: "perspective"."""
         value: Literal["perspective", "orthographic"] = self._get('projection')
         return value
 
@@ -181,8 +185,8 @@ class Camera(Table):
 
     @property
     def azimuth(self) -> float:
-        """Direction of the camera about the world's vertical: of a head that has not turned 0 is before the face, 90 at
-        the character's right hand, 180 behind. Number, -3600 to 3600 (degrees); default: 40.
+        """Direction of the camera around the world's vertical. For a head that has not turned, 0 is in front of the
+        face, 90 at the character's right hand and 180 behind. Number, -3600 to 3600 (degrees); default: 40.
         """
         value: float = self._get('azimuth')
         return value
@@ -213,7 +217,7 @@ class Camera(Table):
 
     @property
     def distance(self) -> float | None:
-        """From the target to the eye. Number, 1 to 1000000 (cm); default: frames everything."""
+        """Distance from the target to the eye. Number, 1 to 1000000 (cm); default: fits everything."""
         value: float | None = self._get('distance')
         return value
 
@@ -223,7 +227,7 @@ class Camera(Table):
 
     @property
     def height(self) -> float | None:
-        """Height of the picture in space, for orthographic views. Number, 0.001 to 1000000 (cm); default: frames
+        """Height of the picture in space, for orthographic views. Number, 0.001 to 1000000 (cm); default: fits
         everything.
         """
         value: float | None = self._get('height')
@@ -235,8 +239,8 @@ class Camera(Table):
 
     @property
     def target(self) -> tuple[float, float, float] | None:
-        """The point looked at, from the head's origin along the world's axes: the camera goes along with the head and
-        does not turn with it. 3 numbers, each -1000000 to 1000000 (cm); default: the middle.
+        """The point to look at, from the head's origin along the world's axes. The camera moves with the head but does
+        not turn with it. 3 numbers, each -1000000 to 1000000 (cm); default: the middle.
         """
         value: tuple[float, float, float] | None = self._get('target')
         return value
@@ -247,10 +251,9 @@ class Camera(Table):
 
     @property
     def f_stop(self) -> float | None:
-        """How far the lens is opened, for perspective: its focal length over its diameter, as photographers count it.
-        Small numbers blur much; skin blurred by more than 3 picture heights is refused. The focal length is that of a
-        picture 24 mm high on the sensor with this `fov`: 52 mm for 26 degrees. Number, 0.1 to 128; default: all
-        sharp.
+        """Aperture of the lens, for perspective: focal length over diameter. Small numbers blur more; nabiki refuses
+        skin blurred by more than 3 picture heights. The focal length is that for a sensor 24 mm high with this `fov`:
+        52 mm for 26 degrees. Number, 0.1 to 128; default: everything sharp.
         """
         value: float | None = self._get('f_stop')
         return value
@@ -261,8 +264,8 @@ class Camera(Table):
 
     @property
     def focus_distance(self) -> float | None:
-        """From the eye to the plane that is sharp, along the axis of view. Left out, that is the side of the head that
-        the camera sees. Number, 1 to 1000000 (cm); default: the head.
+        """Distance from the eye to the plane in focus, along the view axis. By default the side of the head that the
+        camera sees. Number, 1 to 1000000 (cm); default: the head.
         """
         value: float | None = self._get('focus_distance')
         return value
@@ -273,7 +276,9 @@ class Camera(Table):
 
     @property
     def margin(self) -> float:
-        """Empty border around what is framed, as part of the picture's shorter side. Number, 0 to 0.45; default: 0.06."""
+        """Empty border around what is framed, as a share of the picture's shorter side. Number, 0 to 0.45; default:
+        0.06.
+        """
         value: float = self._get('margin')
         return value
 
@@ -283,7 +288,7 @@ class Camera(Table):
 
     @property
     def to(self) -> CameraKey:
-        """Where the camera is at the last frame: it glides there from the values above."""
+        """Camera at the last frame. It moves there from the values above."""
         return CameraKey(self._scene, self._key_of('to'))
 
     @to.setter
@@ -292,13 +297,13 @@ class Camera(Table):
 
 
 class CameraKey(Table):
-    """The second place of a moving camera; what is left out stays as it was."""
+    """Where a moving camera ends. Values you leave out do not change."""
 
     __slots__ = ()
 
     @property
     def azimuth(self) -> float | None:
-        """Azimuth at the end. Number, -3600 to 3600 (degrees); default: stays."""
+        """Azimuth at the end. Number, -3600 to 3600 (degrees); default: unchanged."""
         value: float | None = self._get('azimuth')
         return value
 
@@ -308,7 +313,7 @@ class CameraKey(Table):
 
     @property
     def elevation(self) -> float | None:
-        """Elevation at the end. Number, -89 to 89 (degrees); default: stays."""
+        """Elevation at the end. Number, -89 to 89 (degrees); default: unchanged."""
         value: float | None = self._get('elevation')
         return value
 
@@ -318,7 +323,7 @@ class CameraKey(Table):
 
     @property
     def distance(self) -> float | None:
-        """Distance at the end; it needs `distance` at the start. Number, 1 to 1000000 (cm); default: stays."""
+        """Distance at the end. It requires `distance` at the start. Number, 1 to 1000000 (cm); default: unchanged."""
         value: float | None = self._get('distance')
         return value
 
@@ -328,7 +333,7 @@ class CameraKey(Table):
 
     @property
     def fov(self) -> float | None:
-        """Field of view at the end. Number, 1 to 150 (degrees); default: stays."""
+        """Field of view at the end. Number, 1 to 150 (degrees); default: unchanged."""
         value: float | None = self._get('fov')
         return value
 
@@ -338,7 +343,9 @@ class CameraKey(Table):
 
     @property
     def target(self) -> tuple[float, float, float] | None:
-        """Target at the end; it needs `target` at the start. 3 numbers, each -1000000 to 1000000 (cm); default: stays."""
+        """Target at the end. It requires `target` at the start. 3 numbers, each -1000000 to 1000000 (cm); default:
+        unchanged.
+        """
         value: tuple[float, float, float] | None = self._get('target')
         return value
 
@@ -348,8 +355,8 @@ class CameraKey(Table):
 
     @property
     def focus_distance(self) -> float | None:
-        """Distance of what is sharp at the end; it needs `focus_distance` at the start. Number, 1 to 1000000 (cm);
-        default: stays.
+        """Focus distance at the end. It requires `focus_distance` at the start. Number, 1 to 1000000 (cm); default:
+        unchanged.
         """
         value: float | None = self._get('focus_distance')
         return value
@@ -366,8 +373,8 @@ class HairLook(Table):
 
     @property
     def width(self) -> float:
-        """Thickness of a hair at its root: its diameter. A real hair of 0.007 cm is made thicker because twenty thousand
-        stand for a hundred thousand. Number, 1e-05 to 5 (cm); default: 0.014.
+        """Diameter of a hair at its root. Real hair has about 0.007 cm; the default is larger because 20,000 strands
+        represent 100,000. Lower it if you raise the number of strands. Number, 1e-05 to 5 (cm); default: 0.014.
         """
         value: float = self._get('width')
         return value
@@ -378,7 +385,7 @@ class HairLook(Table):
 
     @property
     def tip(self) -> float:
-        """Thickness at the tip as a part of that at the root. Number, 0 to 1; default: 0.3."""
+        """Thickness at the tip as a share of that at the root. Number, 0 to 1; default: 0.3."""
         value: float = self._get('tip')
         return value
 
@@ -388,7 +395,7 @@ class HairLook(Table):
 
     @property
     def taper(self) -> float:
-        """Part of the length over which the hair thins to its tip. Number, 0 to 1; default: 0.4."""
+        """Share of the length over which the hair thins toward its tip. Number, 0 to 1; default: 0.4."""
         value: float = self._get('taper')
         return value
 
@@ -398,7 +405,7 @@ class HairLook(Table):
 
     @property
     def colour(self) -> str | dict[str, Any]:
-        """A name, amounts of pigment, or the colour that a thick mass shows in even light. "black", "brown", "blond",
+        """A name, amounts of pigment, or the colour of a thick mass of hair in even light. "black", "brown", "blond",
         "red" or "grey", a table of MelaninColour, or a table of RgbColour; default: "brown".
         """
         value: str | dict[str, Any] = self._get('colour')
@@ -410,7 +417,7 @@ class HairLook(Table):
 
     @property
     def variation(self) -> float:
-        """How much hairs differ in pigment and tilt of their scales. Number, 0 to 1; default: 0.25."""
+        """How much hairs differ in pigment and in the tilt of their scales. Number, 0 to 1; default: 0.25."""
         value: float = self._get('variation')
         return value
 
@@ -420,7 +427,9 @@ class HairLook(Table):
 
     @property
     def shading(self) -> Literal["fibre", "kajiya-kay"]:
-        """A fibre with pigment inside, or the model of 1989, as in the paper. "fibre" or "kajiya-kay"; default: "fibre"."""
+        """How a hair reflects light: a fibre with pigment, or the paper's model of 1989. "fibre" or "kajiya-kay";
+        default: "fibre".
+        """
         value: Literal["fibre", "kajiya-kay"] = self._get('shading')
         return value
 
@@ -430,7 +439,7 @@ class HairLook(Table):
 
     @property
     def roughness(self) -> float:
-        """Roughness along the hair: the width of the highlight's band. Number, 2 to 40 (degrees); default: 5."""
+        """Roughness along the hair. Raise it to widen the highlight. Number, 2 to 40 (degrees); default: 5."""
         value: float = self._get('roughness')
         return value
 
@@ -440,7 +449,7 @@ class HairLook(Table):
 
     @property
     def azimuthal_roughness(self) -> float:
-        """Roughness around the hair: small sharpens the light through the fibre. Number, 0.05 to 1; default: 0.35."""
+        """Roughness around the hair. Lower it to sharpen the light through the fibre. Number, 0.05 to 1; default: 0.35."""
         value: float = self._get('azimuthal_roughness')
         return value
 
@@ -450,8 +459,8 @@ class HairLook(Table):
 
     @property
     def scale_tilt(self) -> float:
-        """Tilt of the scales of the cuticle: shifts the white highlight toward the root and the coloured one toward the
-        tip. Number, -10 to 10 (degrees); default: 2.5.
+        """Tilt of the scales of the cuticle. Raise it to shift the white highlight toward the root and the coloured one
+        toward the tip. Number, -10 to 10 (degrees); default: 2.5.
         """
         value: float = self._get('scale_tilt')
         return value
@@ -472,7 +481,7 @@ class HairLook(Table):
 
     @property
     def smooth(self) -> bool:
-        """Whether a curve is drawn through the nodes rather than straight segments. True or false; default: true."""
+        """Whether to draw a curve through the nodes instead of straight segments. True or false; default: true."""
         value: bool = self._get('smooth')
         return value
 
@@ -488,8 +497,8 @@ class Light(Table):
 
     @property
     def azimuth(self) -> float:
-        """Where the light comes from, about the vertical, counted as the camera's azimuth. Number, -3600 to 3600
-        (degrees); default: 0.
+        """Direction around the vertical that the light comes from, counted like the camera's azimuth. Number, -3600 to
+        3600 (degrees); default: 0.
         """
         value: float = self._get('azimuth')
         return value
@@ -500,7 +509,7 @@ class Light(Table):
 
     @property
     def elevation(self) -> float:
-        """Where it comes from, above the horizon. Number, -90 to 90 (degrees); default: 40."""
+        """Direction above the horizon that the light comes from. Number, -90 to 90 (degrees); default: 40."""
         value: float = self._get('elevation')
         return value
 
@@ -510,7 +519,7 @@ class Light(Table):
 
     @property
     def strength(self) -> float:
-        """Its strength: a white surface facing it is as bright as this. Number, 0 to 1000; default: 1."""
+        """Strength: the brightness of a white surface that faces the lamp. Number, 0 to 1000; default: 1."""
         value: float = self._get('strength')
         return value
 
@@ -520,7 +529,7 @@ class Light(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour: amounts of light. 3 numbers, each 0 to 1 (linear); default: [1, 1, 1]."""
+        """Colour of the light, as linear amounts. 3 numbers, each 0 to 1 (linear); default: [1, 1, 1]."""
         value: tuple[float, float, float] = self._get('colour')
         return value
 
@@ -530,7 +539,7 @@ class Light(Table):
 
     @property
     def spread(self) -> float:
-        """How far the lamp spreads as seen from the hair: wide lamps throw soft shadows. Number, 0 to 45 (degrees);
+        """Apparent size of the lamp as seen from the hair. Raise it for softer shadows. Number, 0 to 45 (degrees);
         default: 4.
         """
         value: float = self._get('spread')
@@ -542,7 +551,7 @@ class Light(Table):
 
     @property
     def space(self) -> Literal["camera", "world", "head"]:
-        """What its direction is relative to. "camera", "world" or "head"; default: "camera"."""
+        """What the direction is relative to. "camera", "world" or "head"; default: "camera"."""
         value: Literal["camera", "world", "head"] = self._get('space')
         return value
 
@@ -552,13 +561,13 @@ class Light(Table):
 
 
 class Sky(Table):
-    """The light that comes from all around, dimmed where hair or head hide it."""
+    """Light from all directions, dimmed where hair or head block it."""
 
     __slots__ = ()
 
     @property
     def strength(self) -> float:
-        """Its strength: an unhidden white surface is as bright as this. Number, 0 to 1000; default: 0.24."""
+        """Strength: the brightness of a white surface that nothing blocks. Number, 0 to 1000; default: 0.24."""
         value: float = self._get('strength')
         return value
 
@@ -588,7 +597,7 @@ class Sky(Table):
 
     @property
     def occlusion(self) -> bool:
-        """Whether hair and head hide the sky from what lies within. True or false; default: true."""
+        """Whether hair and head block the light of the sky. True or false; default: true."""
         value: bool = self._get('occlusion')
         return value
 
@@ -598,7 +607,7 @@ class Sky(Table):
 
     @property
     def space(self) -> Literal["world", "head"]:
-        """Whether it stays above when the head turns, or turns with it. "world" or "head"; default: "world"."""
+        """Whether the sky stays fixed to the world or turns with the head. "world" or "head"; default: "world"."""
         value: Literal["world", "head"] = self._get('space')
         return value
 
@@ -614,8 +623,8 @@ class HeadLook(Table):
 
     @property
     def visible(self) -> bool:
-        """Whether the head is drawn; it hides hair behind it and throws shadows all the same. True or false; default:
-        true.
+        """Whether to draw the head. A hidden head still hides the hair behind it and casts shadows. True or false;
+        default: true.
         """
         value: bool = self._get('visible')
         return value
@@ -626,8 +635,8 @@ class HeadLook(Table):
 
     @property
     def colour(self) -> tuple[float, float, float]:
-        """Its colour. The default is a neutral skin, dull enough to leave the eye to the hair. 3 numbers, each 0 to 1
-        (sRGB); default: [0.56, 0.44, 0.37].
+        """Colour of the skin. The default is a muted skin tone that does not distract from the hair. 3 numbers, each 0
+        to 1 (sRGB); default: [0.56, 0.44, 0.37].
         """
         value: tuple[float, float, float] = self._get('colour')
         return value
@@ -638,7 +647,7 @@ class HeadLook(Table):
 
     @property
     def softness(self) -> float:
-        """How far light creeps past the terminator, as in skin. Number, 0 to 1; default: 0.2."""
+        """How far light spreads past the terminator, as in skin. Number, 0 to 1; default: 0.2."""
         value: float = self._get('softness')
         return value
 
@@ -648,7 +657,7 @@ class HeadLook(Table):
 
     @property
     def sheen(self) -> float:
-        """Strength of its sheen. Number, 0 to 1; default: 0.25."""
+        """Strength of the sheen. Number, 0 to 1; default: 0.25."""
         value: float = self._get('sheen')
         return value
 
@@ -658,8 +667,8 @@ class HeadLook(Table):
 
     @property
     def stubble(self) -> float:
-        """Hair too short to be drawn: its length for each root, as thick as the hair. It tints the scalp as dense as the
-        roots stand, so that partings do not gleam; 0 shows bare skin. Number, 0 to 100 (cm); default: 2.
+        """Length of undrawn short hair at each root, as thick as the hair. It tints the scalp where roots are dense, so
+        that partings do not shine. 0 shows bare skin. Number, 0 to 100 (cm); default: 2.
         """
         value: float = self._get('stubble')
         return value
@@ -670,8 +679,8 @@ class HeadLook(Table):
 
     @property
     def face(self) -> bool:
-        """Whether the built-in head has brows, eyes and lips of their colours; other heads have what their mesh has, one
-        colour. True or false; default: true.
+        """Whether the built-in head has coloured brows, eyes and lips. Other heads have one colour. True or false;
+        default: true.
         """
         value: bool = self._get('face')
         return value
@@ -682,13 +691,13 @@ class HeadLook(Table):
 
 
 class Background(Table):
-    """What is behind it all: a vertical gradient, or nothing."""
+    """The background: a vertical gradient, or none."""
 
     __slots__ = ()
 
     @property
     def top(self) -> tuple[float, float, float]:
-        """Colour at the top edge, as displayed. 3 numbers, each 0 to 1 (sRGB); default: [0.36, 0.38, 0.41]."""
+        """Displayed colour at the top edge. 3 numbers, each 0 to 1 (sRGB); default: [0.36, 0.38, 0.41]."""
         value: tuple[float, float, float] = self._get('top')
         return value
 
@@ -698,7 +707,7 @@ class Background(Table):
 
     @property
     def bottom(self) -> tuple[float, float, float]:
-        """Colour at the bottom edge, as displayed. 3 numbers, each 0 to 1 (sRGB); default: [0.2, 0.21, 0.23]."""
+        """Displayed colour at the bottom edge. 3 numbers, each 0 to 1 (sRGB); default: [0.2, 0.21, 0.23]."""
         value: tuple[float, float, float] = self._get('bottom')
         return value
 
@@ -708,7 +717,9 @@ class Background(Table):
 
     @property
     def transparent(self) -> bool:
-        """Whether it is left out: alpha 0 where there is neither hair nor head. True or false; default: false."""
+        """Whether to leave out the background. Alpha is then 0 where there is neither hair nor head. True or false;
+        default: false.
+        """
         value: bool = self._get('transparent')
         return value
 
@@ -718,13 +729,13 @@ class Background(Table):
 
 
 class Video(Table):
-    """The movie's file."""
+    """The movie file."""
 
     __slots__ = ()
 
     @property
     def quality(self) -> float:
-        """0 is a small file, 1 a large one, near lossless. Number, 0 to 1; default: 0.75."""
+        """Quality of the movie. 0 gives a small file, 1 a large, nearly lossless one. Number, 0 to 1; default: 0.75."""
         value: float = self._get('quality')
         return value
 
@@ -734,8 +745,8 @@ class Video(Table):
 
     @property
     def frame_rate(self) -> float | None:
-        """Frames a second that the movie is played with: fewer than `motion.frame_rate`, which is taken otherwise, is
-        slow motion. Number, 1 to 240 (a second); default: the motion's.
+        """Playback rate of the movie. A value below `motion.frame_rate` gives slow motion. Number, 1 to 240 (per
+        second); default: the motion's.
         """
         value: float | None = self._get('frame_rate')
         return value
@@ -746,13 +757,13 @@ class Video(Table):
 
 
 class Output(Table):
-    """What a run writes. Where it goes is the command line's affair."""
+    """What a run writes. The command line sets the folder."""
 
     __slots__ = ()
 
     @property
     def movie(self) -> bool:
-        """Whether a movie is written. True or false; default: true."""
+        """Whether to write a movie. True or false; default: true."""
         value: bool = self._get('movie')
         return value
 
@@ -762,7 +773,7 @@ class Output(Table):
 
     @property
     def png_frames(self) -> bool:
-        """Whether every frame is written as a PNG. True or false; default: false."""
+        """Whether to write each frame as a PNG. True or false; default: false."""
         value: bool = self._get('png_frames')
         return value
 
@@ -772,7 +783,7 @@ class Output(Table):
 
     @property
     def png_bits(self) -> int:
-        """Bits of each channel of those PNGs, 8 or 16. Whole number, 8 to 16; default: 8."""
+        """Bits per channel of the PNG frames: 8 or 16. Whole number, 8 to 16; default: 8."""
         value: int = self._get('png_bits')
         return value
 
@@ -782,8 +793,8 @@ class Output(Table):
 
     @property
     def exr_frames(self) -> bool:
-        """Whether every frame is written as an OpenEXR file with depth, hair direction and motion. True or false;
-        default: false.
+        """Whether to write each frame as an OpenEXR file with depth, hair direction and motion. True or false; default:
+        false.
         """
         value: bool = self._get('exr_frames')
         return value
@@ -794,8 +805,8 @@ class Output(Table):
 
     @property
     def field(self) -> bool:
-        """Whether the force's projections on the yz and zx planes are drawn, as SVG and PNG: the paper's Figure 10. True
-        or false; default: false.
+        """Whether to plot the force, projected on the yz and zx planes, as SVG and PNG. This is the paper's Figure 10.
+        True or false; default: false.
         """
         value: bool = self._get('field')
         return value
@@ -806,8 +817,8 @@ class Output(Table):
 
     @property
     def sheet(self) -> tuple[int, ...] | None:
-        """Frames of the contact sheet. Left out, there are four, evenly from frame 0 on, as the paper's Figure 6 has
-        them. List of whole numbers (frames); default: four, evenly.
+        """Frames of the contact sheet. By default four frames at equal distances from frame 0 on, as in the paper's
+        Figure 6. List of whole numbers (frames); default: 4, evenly spaced.
         """
         value: tuple[int, ...] | None = self._get('sheet')
         return value
@@ -818,10 +829,10 @@ class Output(Table):
 
     @property
     def first_frame(self) -> int | None:
-        """Number of frame 0 on the time line of the shot: exports of moving hair (USD, Alembic) go on from it, pictures
-        keep the numbers of the scene. Left out, it is that of the head's motion, where that is from USD or Alembic
-        and plays at its own speed, else that of the hair's USD layer (`startTimeCode`) or Alembic archive, else 0.
-        Whole number, -10000000 to 10000000; default: as in the files.
+        """Frame number of the shot for frame 0. Exports of moving hair (USD, Alembic) count from it; pictures keep the
+        scene's numbers. By default it comes from the head's motion, if that is from USD or Alembic and plays at its
+        own speed. Otherwise it comes from the hair's USD layer (`startTimeCode`) or Alembic archive, or is 0. Whole
+        number, -10000000 to 10000000; default: as in the files.
         """
         value: int | None = self._get('first_frame')
         return value

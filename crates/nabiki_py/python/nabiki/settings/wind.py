@@ -23,13 +23,15 @@ __all__ = [
 
 
 class ForceSettings(Table):
-    """One interval of the wind: `vector` drives every frame after the interval before it, up to `through`."""
+    """One interval of the wind. `vector` applies in each frame after the previous interval, up to and including
+    `through`.
+    """
 
     __slots__ = ()
 
     @property
     def through(self) -> int:
-        """Last frame that feels this vector (k_j of equation (5)). Whole number (frame); must be given."""
+        """Last frame of the interval (k_j of equation (5)). Whole number (frame); must be given."""
         value: int = self._get('through')
         return value
 
@@ -39,8 +41,8 @@ class ForceSettings(Table):
 
     @property
     def vector(self) -> tuple[float, float, float]:
-        """Force F_j: a direction with a strength, without a unit (section 4.3: only c_i |F| moves hair). With a `speed`,
-        the direction alone. 3 numbers; must be given.
+        """Force F_j: direction and strength, without a unit. Only c_i |F| moves hair (section 4.3). With a `speed`, only
+        the direction counts. 3 numbers; must be given.
         """
         value: tuple[float, float, float] = self._get('vector')
         return value
@@ -51,9 +53,8 @@ class ForceSettings(Table):
 
     @property
     def speed(self) -> str | None:
-        """How fast the air goes that carries the hair, in the free form: "20 km/h", "5 m/s" or "300 cm/s". The strength
-        is then what carries free hair so fast. "... cm/s", "... m/s" or "... km/h"; default: the length of vector is
-        the strength.
+        """Air speed of the wind, in the free form: "20 km/h", "5 m/s" or "300 cm/s". The strength is then the one that
+        carries free hair at this speed. "... cm/s", "... m/s" or "... km/h"; default: strength from vector.
         """
         value: str | None = self._get('speed')
         return value
@@ -70,7 +71,7 @@ class Wind(Table):
 
     @property
     def ease(self) -> Literal["stepped", "linear", "smooth"]:
-        """How one vector follows another. "stepped", "linear" or "smooth"; default: "stepped"."""
+        """How the wind changes from one vector to the next. "stepped", "linear" or "smooth"; default: "stepped"."""
         value: Literal["stepped", "linear", "smooth"] = self._get('ease')
         return value
 
@@ -80,19 +81,19 @@ class Wind(Table):
 
 
 class Gust(Table):
-    """Gusts: a random factor about 1 on the wind of the intervals, which rises and falls as wind does.
+    """Gusts: a random factor around 1 on the wind of the intervals, which rises and falls like natural wind.
 
-    It has the spectrum of the wind's own direction after T. von Karman ("Progress in the statistical theory of
+    It has the spectrum of wind along its direction by T. von Karman ("Progress in the statistical theory of
     turbulence", PNAS 34, 1948) as engineers write it, `S(f) = 4 T / (1 + 70.8 (f T)^2)^(5/6)`, up to a highest
-    frequency: what is faster is not felt by the whole head of hair at once, and is turbulence.
+    frequency. Faster changes do not reach all the hair at once; use turbulence for them.
     """
 
     __slots__ = ()
 
     @property
     def intensity(self) -> float:
-        """How much the wind changes: 0.15 as in open country, 0.4 as in a town. It is the root mean square of the factor
-        about 1; above 0.4 the wind now and then turns round. Number of at least 0; default: 0.3.
+        """How much the wind changes: 0.15 for open country, 0.4 for a town. It is the root mean square of the change of
+        the factor; above 0.4 the wind sometimes reverses. Number of at least 0; default: 0.3.
         """
         value: float = self._get('intensity')
         return value
@@ -103,8 +104,8 @@ class Gust(Table):
 
     @property
     def time_scale(self) -> float:
-        """How long a gust takes. T: the length scale of the turbulence over the mean speed of the wind. Number above 0
-        (s); default: 2.
+        """How long a gust takes. T is the length scale of the turbulence over the mean wind speed. Number above 0 (s);
+        default: 2.
         """
         value: float = self._get('time_scale')
         return value
@@ -115,7 +116,9 @@ class Gust(Table):
 
     @property
     def highest(self) -> float:
-        """Highest frequency. What is faster is not felt by all of the hair at once. Number above 0 (Hz); default: 1."""
+        """Highest frequency of the changes. Faster ones do not reach all the hair at once. Number above 0 (Hz); default:
+        1.
+        """
         value: float = self._get('highest')
         return value
 
@@ -125,7 +128,7 @@ class Gust(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the phases: another number, other gusts. Whole number; default: 1."""
+        """Random seed of the gusts. Whole number; default: 1."""
         value: int = self._get('seed')
         return value
 
@@ -135,9 +138,9 @@ class Gust(Table):
 
 
 class BodyWind(Table):
-    """The wind from the head's own motion, uniform in space; it needs a motion of the head.
+    """The wind caused by the motion of the head, the same everywhere. It needs `[head.motion]`.
 
-    With the head's velocity v (cm/s) and acceleration a (cm/s^2), from the poses and the frame rate: F = -drag v -
+    With the head's velocity v (cm/s) and acceleration a (cm/s^2), from its poses and the frame rate: F = -drag v -
     footfall (0, a_y, 0).
     """
 
@@ -145,7 +148,7 @@ class BodyWind(Table):
 
     @property
     def drag(self) -> float:
-        """Force for each cm/s of the head, against its way. Number of at least 0 (per cm/s); default: 0.3."""
+        """Force per cm/s of the head's speed, opposite to its direction. Number of at least 0 (per cm/s); default: 0.3."""
         value: float = self._get('drag')
         return value
 
@@ -155,7 +158,7 @@ class BodyWind(Table):
 
     @property
     def footfall(self) -> float:
-        """Force for each cm/s^2 by which the head is lifted, downward. Where gravity is G, hair that is lifted with the
+        """Downward force per cm/s^2 of upward acceleration of the head. With gravity G, hair that is lifted with the
         head feels G / 981. Number of at least 0 (per cm/s2); default: 0.
         """
         value: float = self._get('footfall')
@@ -167,8 +170,8 @@ class BodyWind(Table):
 
     @property
     def smoothing(self) -> float:
-        """Deviation of the bell by which the head's places are averaged beforehand; 0: as they are. Recorded places
-        tremble, and accelerations many times more. Number, 0 to 240 (frames); default: 0.
+        """Standard deviation of the bell that averages the head's positions for this wind. Raise it for recorded motion,
+        whose accelerations tremble. 0 leaves the motion as it is. Number, 0 to 240 (frames); default: 0.
         """
         value: float = self._get('smoothing')
         return value
@@ -179,14 +182,14 @@ class BodyWind(Table):
 
 
 class Flow(Table):
-    """The way of the wind round the head, instead of through it."""
+    """Leads the wind around the head instead of through it."""
 
     __slots__ = ()
 
     @property
     def thickness(self) -> float:
-        """How far the hair on the head stands out from the head ellipsoid: the wind goes round that, too. Number, 0 to
-        100 (cm); default: 0.
+        """Thickness of the hair on the head ellipsoid: the wind flows around this layer too. Raise it for voluminous
+        hair. Number, 0 to 100 (cm); default: 0.
         """
         value: float = self._get('thickness')
         return value
@@ -197,17 +200,17 @@ class Flow(Table):
 
 
 class Turbulence(Table):
-    """Turbulence: a random force without sources, which drifts with the wind and changes on its way.
+    """Turbulence: a random force of swirls that drift with the wind and change on the way.
 
-    It is the curl of a random vector potential, a sum of octaves each half as large as the one before. Near the head
-    the potential is let go to 0 by Bridson's ramp, so that the force runs along the head.
+    It is the curl of a random vector potential, a sum of octaves that each have half the size of the one before. Near
+    the head, Bridson's ramp reduces the potential to 0, so the force runs along the head.
     """
 
     __slots__ = ()
 
     @property
     def strength(self) -> float:
-        """Root mean square of |F| over space, far from the head. Number of at least 0; default: 30."""
+        """Strength far from the head: the root mean square of |F| over space. Number of at least 0; default: 30."""
         value: float = self._get('strength')
         return value
 
@@ -217,8 +220,8 @@ class Turbulence(Table):
 
     @property
     def swirl_size(self) -> float:
-        """Size of the largest swirls, half of the wavelengths that they are made of. Those of the last octave must be at
-        least 0.01 cm large, too. Number, 0.01 to 1000000 (cm); default: 10.
+        """Size of the largest swirls, half of their wavelengths. The swirls of the last octave must be at least 0.01 cm
+        as well. Number, 0.01 to 1000000 (cm); default: 10.
         """
         value: float = self._get('swirl_size')
         return value
@@ -229,8 +232,8 @@ class Turbulence(Table):
 
     @property
     def pulse_length(self) -> float:
-        """Frames in which a swirl turns into its opposite and back, about; 0: swirls drift and never change. Without
-        drift the whole pattern comes again after 16 times as many. Number of at least 0 (frames); default: 48.
+        """Approximate number of frames in which a swirl reverses and returns. 0 makes swirls drift without changing.
+        Without drift, the pattern repeats after 16 times this number. Number of at least 0 (frames); default: 48.
         """
         value: float = self._get('pulse_length')
         return value
@@ -241,7 +244,7 @@ class Turbulence(Table):
 
     @property
     def roughness(self) -> float:
-        """Strength of each octave by that of the one before; 0.79 is Kolmogorov's. Number, 0 to 1; default: 0.5."""
+        """Strength of each octave relative to the one before. 0.79 is that of Kolmogorov. Number, 0 to 1; default: 0.5."""
         value: float = self._get('roughness')
         return value
 
@@ -251,7 +254,9 @@ class Turbulence(Table):
 
     @property
     def octaves(self) -> int:
-        """Octaves, each half as large as the one before. Time is spent on each. Whole number, 1 to 8; default: 2."""
+        """Number of octaves, each half the size of the one before. More give finer swirls and take longer. Whole number,
+        1 to 8; default: 2.
+        """
         value: int = self._get('octaves')
         return value
 
@@ -261,7 +266,7 @@ class Turbulence(Table):
 
     @property
     def drift(self) -> float:
-        """Way that the swirls go in a frame for each unit of the wind. Number of at least 0 (cm); default: 0.02."""
+        """Distance that the swirls drift per frame and unit of wind. Number of at least 0 (cm); default: 0.02."""
         value: float = self._get('drift')
         return value
 
@@ -271,9 +276,9 @@ class Turbulence(Table):
 
     @property
     def near_head(self) -> float:
-        """Distance from the head ellipsoid within which the force is turned along it; 0: it knows nothing of the head.
-        It is what E's own measure gives, (|q| - 1) times the mean half axis, where q is the point in half axes from
-        the centre, and at most the mean half axis. Number of at least 0 (cm); default: 4.
+        """Distance from the head ellipsoid within which the force turns along the head. 0 ignores the head. The distance
+        is measured as (|q| - 1) times the mean half axis, with q the point in half axes from the centre, and is at
+        most the mean half axis. Number of at least 0 (cm); default: 4.
         """
         value: float = self._get('near_head')
         return value
@@ -284,7 +289,7 @@ class Turbulence(Table):
 
     @property
     def seed(self) -> int:
-        """Seed of the random vectors: another number, other swirls. Whole number; default: 1."""
+        """Random seed of the swirls. Whole number; default: 1."""
         value: int = self._get('seed')
         return value
 
@@ -294,7 +299,9 @@ class Turbulence(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
+        """Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength is
+        constant.
+        """
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter
@@ -303,7 +310,7 @@ class Turbulence(Table):
 
 
 class EnvelopeKey(Table):
-    """A part of the strength at one frame."""
+    """A keyframe of the strength."""
 
     __slots__ = ()
 
@@ -319,7 +326,7 @@ class EnvelopeKey(Table):
 
     @property
     def factor(self) -> float:
-        """Part of the strength, any finite number. Number; must be given."""
+        """Factor on the strength, any finite number. Number; must be given."""
         value: float = self._get('factor')
         return value
 
@@ -329,13 +336,13 @@ class EnvelopeKey(Table):
 
 
 class Point(Table):
-    """A point that blows or draws."""
+    """A point that pushes or pulls."""
 
     __slots__ = ()
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """Where it is, in the space of the forces. 3 numbers, each -1000000 to 1000000 (cm); must be given."""
+        """Position, in the space of the forces. 3 numbers, each -1000000 to 1000000 (cm); must be given."""
         value: tuple[float, float, float] = self._get('position')
         return value
 
@@ -345,7 +352,7 @@ class Point(Table):
 
     @property
     def strength(self) -> float:
-        """|F| beside the point; negative draws in. Number; default: 50."""
+        """Strength |F| close to the point. Negative values pull. Number; default: 50."""
         value: float = self._get('strength')
         return value
 
@@ -355,8 +362,8 @@ class Point(Table):
 
     @property
     def falloff(self) -> Falloff:
-        """How it weakens with the distance. Within a twentieth of its radius the direction, which has no meaning at the
-        centre, is let go to 0.
+        """How the force weakens with the distance. Within a twentieth of the radius it fades to 0, since it has no
+        direction at the centre.
         """
         return Falloff(self._scene, self._key_of('falloff'))
 
@@ -366,7 +373,9 @@ class Point(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
+        """Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength is
+        constant.
+        """
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter
@@ -381,8 +390,8 @@ class Falloff(Table):
 
     @property
     def law(self) -> Literal["none", "linear", "smooth", "inverse", "inverse_square"]:
-        """The law by which the force weakens. "none", "linear", "smooth", "inverse" or "inverse_square"; default:
-        "smooth".
+        """The law by which the force weakens with distance. "none", "linear", "smooth", "inverse" or "inverse_square";
+        default: "smooth".
         """
         value: Literal["none", "linear", "smooth", "inverse", "inverse_square"] = self._get('law')
         return value
@@ -393,7 +402,7 @@ class Falloff(Table):
 
     @property
     def radius(self) -> float:
-        """R of the law. Within a twentieth of it the force is let go to 0. Number above 0 (cm); default: 30."""
+        """Radius R of the law. Within a twentieth of it the force fades to 0. Number above 0 (cm); default: 30."""
         value: float = self._get('radius')
         return value
 
@@ -403,7 +412,7 @@ class Falloff(Table):
 
 
 class Vortex(Table):
-    """A whirl: a force round an axis."""
+    """A vortex: a force around an axis."""
 
     __slots__ = ()
 
@@ -419,8 +428,8 @@ class Vortex(Table):
 
     @property
     def axis(self) -> tuple[float, float, float]:
-        """Along the axis, of any length but 0: hair goes round it counter-clockwise as seen from its tip. 3 numbers;
-        default: [0, 1, 0].
+        """Direction of the axis, of any length except 0. Hair goes around it counter-clockwise as seen from its tip. 3
+        numbers; default: [0, 1, 0].
         """
         value: tuple[float, float, float] = self._get('axis')
         return value
@@ -431,7 +440,7 @@ class Vortex(Table):
 
     @property
     def strength(self) -> float:
-        """|F| beside the axis; negative goes round the other way. Number; default: 50."""
+        """Strength |F| close to the axis. Negative values turn the other way. Number; default: 50."""
         value: float = self._get('strength')
         return value
 
@@ -441,7 +450,7 @@ class Vortex(Table):
 
     @property
     def falloff(self) -> Falloff:
-        """How it weakens with the distance from the axis. Within a twentieth of its radius it is let go to 0."""
+        """How the force weakens with the distance from the axis. Within a twentieth of the radius it fades to 0."""
         return Falloff(self._scene, self._key_of('falloff'))
 
     @falloff.setter
@@ -450,7 +459,9 @@ class Vortex(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
+        """Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength is
+        constant.
+        """
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter
@@ -465,7 +476,7 @@ class Fan(Table):
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """The tip of the cone, in the space of the forces. 3 numbers, each -1000000 to 1000000 (cm); must be given."""
+        """Tip of the cone, in the space of the forces. 3 numbers, each -1000000 to 1000000 (cm); must be given."""
         value: tuple[float, float, float] = self._get('position')
         return value
 
@@ -475,7 +486,7 @@ class Fan(Table):
 
     @property
     def direction(self) -> tuple[float, float, float]:
-        """Where it blows, of any length but 0. 3 numbers; must be given."""
+        """Direction of the wind. Any length except 0. 3 numbers; must be given."""
         value: tuple[float, float, float] = self._get('direction')
         return value
 
@@ -485,7 +496,7 @@ class Fan(Table):
 
     @property
     def strength(self) -> float:
-        """|F| on the axis beside the fan; negative draws in. Number; default: 50."""
+        """Strength |F| on the axis, close to the fan. Negative values draw air in. Number; default: 50."""
         value: float = self._get('strength')
         return value
 
@@ -505,7 +516,7 @@ class Fan(Table):
 
     @property
     def falloff(self) -> Falloff:
-        """How it weakens with the distance. Within a twentieth of its radius it is let go to 0."""
+        """How the force weakens with the distance. Within a twentieth of the radius it fades to 0."""
         return Falloff(self._scene, self._key_of('falloff'))
 
     @falloff.setter
@@ -514,7 +525,9 @@ class Fan(Table):
 
     @property
     def envelope(self) -> Tables[EnvelopeKey]:
-        """Parts of the strength over frames, on straight lines from key to key; all of it always without keys."""
+        """Keyframes of the strength: the factor follows straight lines between them. Without keyframes, the strength is
+        constant.
+        """
         return Tables(self._scene, self._key_of('envelope'), EnvelopeKey)
 
     @envelope.setter
