@@ -74,7 +74,7 @@ fn what_cannot_be_turned_is_one_line() {
         (
             "--turntable 8 --set output.png_frames=false --set output.movie=false",
             1,
-            "a turntable is a movie, or stills",
+            "a turntable is a movie or stills",
         ),
         ("--turntable 8 --frame 999", 1, "the last frame is motion.frames = 110"),
     ] {

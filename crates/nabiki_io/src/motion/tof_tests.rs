@@ -55,8 +55,8 @@ fn what_is_missing_or_does_not_fit_is_said_in_one_line() {
     for (from, to, said) in [
         ("TOS 1.00", "TOB 1.00", "does not start with TOS"),
         ("TOS 1.00", "TOS 2.00", "version 2.00: only text object streams of version 1 are read"),
-        ("object SkeletalAnimation", "object Walk", "holds no SkeletalAnimation but Walk: is this the file"),
-        ("object Skeleton 0", "object Bones 0", "holds no Skeleton but Other, Bones: is this the file"),
+        ("object SkeletalAnimation", "object Walk", "holds no SkeletalAnimation but Walk: is this the right file?"),
+        ("object Skeleton 0", "object Bones 0", "holds no Skeleton but Other, Bones: is this the right file?"),
         ("mTranslation vec3", "mTranslation dvec3", "Keyframe is not declared as mRotation quat, mTranslation vec3"),
         ("mParentName string", "mParent int", "Skeleton::Joint is not declared as mName string, mParentName string"),
         ("mAnimatedJoints array", "mJoints array", "SkeletalAnimation does not begin with mAnimatedJoints"),
