@@ -47,7 +47,10 @@ fn work_that_takes_more_memory_than_there_is_is_refused_before_it_begins() {
     let draw =
         ["render", GUST, "--frame", "0", "--strands", "20", "--threads", "2", "--set", "picture.size=[16384,16384]"];
     let line = refused(&folder, limited(&folder, &format!("-v {}", 2 * GIB), &draw));
-    assert!(line.contains("picture.size = [16384, 16384]: a picture of 20 strands needs at least 5.0 GiB of memory"), "{line}");
+    assert!(
+        line.contains("picture.size = [16384, 16384]: a picture of 20 strands needs at least 5.0 GiB of memory"),
+        "{line}"
+    );
 }
 
 #[test]

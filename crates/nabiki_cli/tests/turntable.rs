@@ -71,11 +71,7 @@ fn what_cannot_be_turned_is_one_line() {
     for (arguments, code, words) in [
         ("--turntable 1", 2, "1 is not in 2"),
         ("--turntable 8 --frames 1..2", 1, "a turntable shows one frame"),
-        (
-            "--turntable 8 --set output.png_frames=false --set output.movie=false",
-            1,
-            "a turntable is a movie or stills",
-        ),
+        ("--turntable 8 --set output.png_frames=false --set output.movie=false", 1, "a turntable is a movie or stills"),
         ("--turntable 8 --frame 999", 1, "the last frame is motion.frames = 110"),
     ] {
         let output = render(folder.path(), arguments);

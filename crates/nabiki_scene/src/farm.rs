@@ -193,7 +193,8 @@ mod tests {
         let named = Plan { name: "x{{y}}".to_owned(), scene: "/scenes/x{{y}}.toml".into(), ..plan(10, 1) };
         let said = named.template().unwrap_err().to_string();
         assert!(
-            said.starts_with("/scenes/x{{y}}.toml: its name contains {{ or }}, ") && said.ends_with("; rename the scene"),
+            said.starts_with("/scenes/x{{y}}.toml: its name contains {{ or }}, ")
+                && said.ends_with("; rename the scene"),
             "{said}"
         );
     }
