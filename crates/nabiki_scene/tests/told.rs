@@ -107,7 +107,7 @@ fn a_head_that_leaps_is_said_and_one_that_falls_or_spins_evenly_is_not() {
                     [motion]\nform = \"free\"\nframes = 10\n[[force]]\nthrough = 10\nvector = [0, 0, 0]\n";
         let built = Scene::parse(text, &folder.path().join("scene.toml"), &[]).unwrap().build(Shown::All).unwrap();
         let advice = built.advice().into_iter().map(|advice| advice.to_string());
-        advice.filter(|line| line.contains("hair feels that")).collect()
+        advice.filter(|line| line.contains("the hair feels it")).collect()
     };
     // A train's speed and a free fall; 57 degrees a frame.
     let falls = |n: f32| Vec3::new(200.0 * n, -490.0 * (n / 24.0).powi(2), 0.0);
