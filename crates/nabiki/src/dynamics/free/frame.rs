@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::kernel::{FreeState, bend, carry, ends, stay_behind, untwist};
 use super::packed::{Packed, Plan, Step};
 use super::passes::{Blown, Go, Place, Stepped, Velocities};
-use super::reference::TAKEN;
+use super::reference::AGAIN;
 use super::solve::{answer, drive, pull_taut, slacken, solve, unwind};
 use super::work::{self, Work};
 use crate::dynamics::block::Block;
@@ -81,10 +81,9 @@ impl Packed {
             solve(states, rows, h, work);
             unwind(work);
             // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
-            if !bodies.is_empty()
-                && let Some(taken) = pressed(states)
-            {
-                answer(states, rows, h, &taken, work);
+            let pressed = if bodies.is_empty() { None } else { pressed(states) };
+            for _ in 0..if pressed.is_some() { AGAIN } else { 0 } {
+                answer(states, rows, h, &pressed.unwrap_or_default(), work);
                 pull_taut::<true>(states, rows, work);
                 slacken(work);
                 drive(states, rows, work);
@@ -145,7 +144,7 @@ impl Packed {
     }
 }
 
-/// How many times the answers of a strand's joints are taken: [`TAKEN`] where something presses it, else 0; `None` where nothing presses any.
+/// 1 for strands that something presses, else 0; `None` where nothing presses any.
 #[inline(always)]
 fn pressed(states: &[FreeState]) -> Option<Row> {
     let mut most = Row([0.0; LANES]);
@@ -155,6 +154,6 @@ fn pressed(states: &[FreeState]) -> Option<Row> {
             most.0[lane] = most.0[lane].max(pressed.0[lane]);
         }
     }
-    let taken = most.0.map(|pressed| if pressed > 0.0 { TAKEN as f32 } else { 0.0 });
-    taken.iter().any(|&taken| taken > 0.0).then_some(Row(taken))
+    let pressed = most.0.map(|pressed| if pressed > 0.0 { 1.0 } else { 0.0 });
+    pressed.iter().any(|&pressed| pressed > 0.0).then_some(Row(pressed))
 }

@@ -205,11 +205,11 @@ pub(super) fn unwind(work: &mut [Work]) {
     }
 }
 
-/// After a solve of `h` frames: takes down how the joints answer the turns that it found, `taken` times, so that the tensions of another know of
-/// it.
+/// After a solve of `h` frames: takes down how the joints of some strands, those of `pressed`, answer the turns that it found, so that the
+/// tensions of another know of it.
 #[inline(always)]
-pub(super) fn answer(states: &[FreeState], rows: &[FreeRow], h: f32, taken: &Row, work: &mut [Work]) {
-    let (theta, taken) = (THETA as f32, *taken);
+pub(super) fn answer(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
+    let (theta, pressed) = (THETA as f32, *pressed);
     let turns = |work: &Work, state: &FreeState| {
         let (before, after, mut turns) = (state.increment, work.driven, ZERO);
         for lane in 0..LANES {
@@ -227,7 +227,7 @@ pub(super) fn answer(states: &[FreeState], rows: &[FreeRow], h: f32, taken: &Row
             let sum = scale(first.0[lane], lane_of(&behind, lane));
             let sum = scale_add(second.0[lane], lane_of(&here, lane), sum);
             let sum = scale_add(third.0[lane], lane_of(&ahead, lane), sum);
-            set_lane(&mut answer, lane, scale(-h * theta * taken.0[lane], sum));
+            set_lane(&mut answer, lane, scale(-h * theta * pressed.0[lane], sum));
         }
         (behind, here, bent) = (here, ahead, work[i].bent);
         work[i].moment = answer;

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
-use super::chain::{Chain, THETA};
+use super::chain::{AGAIN, Chain, THETA};
 use super::common::Common;
 use super::contact::{Moving, PlacedBody, Touch, kept_from};
 use crate::body::Surface;
@@ -212,7 +212,8 @@ impl<S: Scalar> Strand<S> {
             self.push(common, bodies);
             self.solve(share);
             // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
-            if self.segments.iter().any(|segment| segment.pressed.value() > 0.0) {
+            let is_pressed = self.segments.iter().any(|segment| segment.pressed.value() > 0.0);
+            for _ in 0..if is_pressed { AGAIN } else { 0 } {
                 self.chain.answer(&self.segments, share);
                 self.solve(share);
             }
