@@ -379,7 +379,7 @@ fn clear_of(head: &Head, hair: &Strands) -> Strands {
 #[test]
 fn differences_of_motions_lead_where_the_specifications_tangents_lead() {
     let head = bust();
-    let hair = clear_of(&head, &hair(&head, 60));
+    let hair = clear_of(&head, &hair(&head, 120));
     let strands = hair.len() as u32;
     assert!(strands >= 10, "{strands} strands touch nothing");
     for form in [Form::Paper, Form::Free(free(&head))] {
