@@ -6,8 +6,8 @@
 //! Loops over lanes read and write local rows alone, which are copied from and to the arrays around them: of places in arrays
 //! the compiler does not know that they are apart, and asks that at every segment, or gives vectors up.
 //!
-//! A step goes along the strands to and fro: [`carry`], [`untwist`] and [`bend`] for the joints, [`pull_taut`](super::solve::pull_taut), `slacken` and `drive` for the
-//! tensions, [`solve`] and [`unwind`] for the increments, and [`advance`], on which segments are turned.
+//! A step goes along the strands to and fro: [`carry`], [`untwist`] and [`bend`] for the joints, the systems of [`solve`](super::solve), and
+//! [`advance`], on which segments are turned.
 
 use super::pulls::{hold, joints};
 use super::reference::THETA;
