@@ -14,8 +14,8 @@ pub const THETA: f64 = 0.6;
 /// do in a straight one: Q knows nothing of the ways in which segments turn that do not point alike.
 pub const BENT: f64 = 4.0;
 
-/// How many times a strand is solved again that something presses, each time with tensions that know how its joints answered before. Of 3,000
-/// strands of a new scene under the earth's gravity, none goes on hopping with 2, in two, five or eight steps a frame.
+/// How many times a strand is solved again that something presses, each time with tensions that know how its joints answered before. With 2, none
+/// of 3,000 strands of a new scene goes on hopping under the earth's gravity.
 pub const AGAIN: usize = 2;
 
 /// What the segments of a strand are given, and room for what the solve makes of it.
