@@ -62,11 +62,7 @@ fn hair_in_true_timing_lies_still_after_the_wind() {
         let ways = now.points().iter().zip(before.points()).map(|(now, before)| now.distance(*before));
         let way = ways.fold(0.0, f32::max);
         farthest = farthest.max(way);
-        if frame + 20 > built.frames() {
-            let s = (0..now.len())
-                .find(|&s| now.strand(s).iter().zip(before.strand(s)).any(|(a, b)| a.distance(*b) == way));
-            assert!(way < STILL_CM, "frame {frame}: strand {} goes {way} cm", s.unwrap_or_default());
-        }
+        assert!(frame + 20 <= built.frames() || way < STILL_CM, "frame {frame}: a node goes {way} cm");
         before.clone_from(now);
     }
     assert!(farthest > 3.0, "the gust moves no node by more than {farthest} cm a frame");

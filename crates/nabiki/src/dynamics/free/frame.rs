@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::kernel::{FreeState, bend, carry, ends, stay_behind, untwist};
+use super::kernel::{FreeRow, FreeState, bend, carry, ends, stay_behind, untwist};
 use super::packed::{Packed, Plan, Step};
 use super::passes::{Blown, Go, Place, Stepped, Velocities};
-use super::reference::AGAIN;
+use super::reference::ROUNDS_PRESSED;
 use super::solve::{answer, drive, pull_taut, slacken, solve, unwind};
 use super::work::{self, Work};
 use crate::dynamics::block::Block;
@@ -75,20 +75,15 @@ impl Packed {
             let closer = bodies.iter().map(|body| body.closer).fold(0.0, f32::max);
             let stepped = Stepped { of, bodies, h, closer };
             stepped.push(states, work);
-            pull_taut::<false>(states, rows, work);
-            slacken(work);
-            drive(states, rows, work);
-            solve(states, rows, h, work);
-            unwind(work);
+            solve_chain::<false>(states, rows, h, work);
             // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
-            let pressed = if bodies.is_empty() { None } else { pressed(states) };
-            for _ in 0..if pressed.is_some() { AGAIN } else { 0 } {
-                answer(states, rows, h, &pressed.unwrap_or_default(), work);
-                pull_taut::<true>(states, rows, work);
-                slacken(work);
-                drive(states, rows, work);
-                solve(states, rows, h, work);
-                unwind(work);
+            if !bodies.is_empty()
+                && let Some(pressed) = pressed(states)
+            {
+                for _ in 0..ROUNDS_PRESSED {
+                    answer(states, rows, h, &pressed, work);
+                    solve_chain::<true>(states, rows, h, work);
+                }
             }
             let page = if n == step.steps as usize { page.take() } else { None };
             block.walk(&block.roots, states, rows, page, Go::new(stepped, work));
@@ -142,6 +137,16 @@ impl Packed {
             state.increment = work.driven;
         }
     }
+}
+
+/// Finds the tensions, and the increments at the end of a step of `h` frames. `ANSWERED`: with how the joints answered before, see [`answer`].
+#[inline(always)]
+fn solve_chain<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [Work]) {
+    pull_taut::<ANSWERED>(states, rows, work);
+    slacken(work);
+    drive(states, rows, work);
+    solve(states, rows, h, work);
+    unwind(work);
 }
 
 /// 1 for strands that something presses, else 0; `None` where nothing presses any.

@@ -8,16 +8,16 @@ use super::work::Work;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::vector::{add, dot, scale, scale_add, subtract};
 
-/// Goes to the tips with the tridiagonal system of the tensions: what drives the increments without them, and half of the way to them. `AGAIN`:
+/// Goes to the tips with the tridiagonal system of the tensions: what drives the increments without them, and half of the way to them. `ANSWERED`:
 /// after [`answer`].
 #[inline(always)]
-pub(super) fn pull_taut<const AGAIN: bool>(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
+pub(super) fn pull_taut<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
     let mut answered_before = ZERO;
     let (mut node_before, mut velocity, mut drag, mut lightness) = (ZERO, ZERO, NONE, NONE);
     let (mut before, mut above, mut tension, mut bent) = (ZERO, NONE, NONE, NONE);
     for (i, (state, row)) in states.iter().zip(rows).enumerate() {
         let next_shear = next(work, i, &BEYOND.2).shear;
-        let beyond = if AGAIN { next(work, i, &BEYOND.2).moment } else { ZERO };
+        let beyond = if ANSWERED { next(work, i, &BEYOND.2).moment } else { ZERO };
         let next_direction = next(states, i, &BEYOND.0).direction;
         let FreeState { direction, increment, .. } = *state;
         let FreeRow { length, lightness: lighter, .. } = *row;
@@ -33,7 +33,7 @@ pub(super) fn pull_taut<const AGAIN: bool>(states: &[FreeState], rows: &[FreeRow
             let driven = subtract(node, lane_of(&node_before, lane));
             let driven = scale_add(-differs, lane_of(&velocity, lane), driven);
             let mut right = length.mul_add(dot(w, w), dot(scale_add(-slowed.0[lane] * length, w, driven), d));
-            if AGAIN {
+            if ANSWERED {
                 let answered = scale(up, subtract(lane_of(&answers, lane), lane_of(&beyond, lane)));
                 let by = dot(subtract(answered, lane_of(&answered_before, lane)), d);
                 // Strands that ask for no answer keep their bits, the sign of 0 too.

@@ -16,7 +16,7 @@ pub const BENT: f64 = 4.0;
 
 /// How many times a strand is solved again that something presses, each time with tensions that know how its joints answered before. With 2, none
 /// of 3,000 strands of a new scene goes on hopping under the earth's gravity.
-pub const AGAIN: usize = 2;
+pub const ROUNDS_PRESSED: usize = 2;
 
 /// What the segments of a strand are given, and room for what the solve makes of it.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
-use super::chain::{AGAIN, Chain, THETA};
+use super::chain::{Chain, ROUNDS_PRESSED, THETA};
 use super::common::Common;
 use super::contact::{Moving, PlacedBody, Touch, kept_from};
 use crate::body::Surface;
@@ -212,10 +212,11 @@ impl<S: Scalar> Strand<S> {
             self.push(common, bodies);
             self.solve(share);
             // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
-            let is_pressed = self.segments.iter().any(|segment| segment.pressed.value() > 0.0);
-            for _ in 0..if is_pressed { AGAIN } else { 0 } {
-                self.chain.answer(&self.segments, share);
-                self.solve(share);
+            if self.segments.iter().any(|segment| segment.pressed.value() > 0.0) {
+                for _ in 0..ROUNDS_PRESSED {
+                    self.chain.answer(&self.segments, share);
+                    self.solve(share);
+                }
             }
             self.go(common, bodies, share);
         }
