@@ -62,7 +62,7 @@ def test_files_of_matrices_go_when_no_scene_names_them():
     assert os.path.exists(first) and scene.head.motion.file != first
     kept.head.motion = None
     assert not os.path.exists(first)
-    with pytest.raises(nabiki.Error, match="table of poses"):
+    with pytest.raises(nabiki.Error, match="from arrays: write them to files"):
         scene.save("scene.toml")
 
 
