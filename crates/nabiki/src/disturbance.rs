@@ -45,6 +45,12 @@ impl Disturbance {
         refused(&at.key("over"), self.over, remedy)
     }
 
+    /// The refusal of disturbances in the free form, which has no angles to turn.
+    pub fn refused_in_the_free_form(&self) -> SettingError {
+        let remedy = "disturbances turn the angles of the paper's form; in the free form use turbulence, or a gust";
+        SettingError::new("disturbance.every", self.every, remedy)
+    }
+
     /// Whether a disturbance starts in this frame.
     pub fn falls_on(&self, frame: u32) -> bool {
         frame >= self.from && frame.is_multiple_of(self.every)

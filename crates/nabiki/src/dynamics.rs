@@ -185,11 +185,7 @@ impl Dynamics {
             (Form::Paper, None) => Ok(()),
             (Form::Paper, Some(disturbance)) => disturbance.check(),
             (Form::Free(free), None) => free.check(self.motion.frames),
-            (Form::Free(_), Some(disturbance)) => {
-                let remedy =
-                    "disturbances turn the angles of the paper's form; in the free form use turbulence, or a gust";
-                Err(SettingError::new("disturbance.every", disturbance.every, remedy))
-            }
+            (Form::Free(_), Some(disturbance)) => Err(disturbance.refused_in_the_free_form()),
         }
     }
 

@@ -10,6 +10,7 @@ use crate::error::SettingError;
 use crate::locks::{Lock, LockVariation, Locks, Own};
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
+use crate::region::Region;
 use crate::settings;
 use crate::strands::Strands;
 
@@ -42,6 +43,8 @@ settings! {
         /// Differences between locks, so that they part in the wind.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub variation: Option<LockVariation> = None => "Locks", open "locks do not differ";
+        /// Parts of the hair that move differently, such as a fringe that stays.
+        pub regions: Vec<Region> = Vec::new() => "Regions";
         /// A band that ties hair. Strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub tie: Option<Tie> = None => "Tie", open "none";
@@ -166,9 +169,11 @@ impl FreeMotion {
 
     /// How a strand at rest (head space, cm) differs from the settings of the form.
     pub fn own(&self, strand: &[Vec3]) -> Own {
-        self.form.variation.map_or_else(Own::default, |variation| {
+        let mut own = self.form.variation.map_or_else(Own::default, |variation| {
             variation.of(&self.lock(strand), Chance::at_point(self.locks.seed, strand[0]))
-        })
+        });
+        self.form.regions.iter().for_each(|region| region.change(&mut own, strand[0]));
+        own
     }
 
     /// Refuses settings out of range, and bodies without a pose in any of the `frames` frames after frame 0.

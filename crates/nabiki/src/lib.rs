@@ -96,6 +96,7 @@ mod prefetch;
 pub mod profile;
 pub mod pseudo_force;
 pub mod random;
+pub mod region;
 mod scalar;
 pub mod setting;
 #[cfg(test)]

@@ -90,6 +90,14 @@ pub struct Own {
     pub air: f64,
     /// Factor on the stiffness.
     pub stiffness: f64,
+    /// Factor on what holds it to its place.
+    pub hold: f64,
+    /// Factor on the frames that it takes to settle.
+    pub settle: f64,
+    /// Factor on the force of the field alone.
+    pub wind: f64,
+    /// Factor on what a moving head leaves behind.
+    pub drag: f64,
     /// How much the wind on the strand varies in strength and direction.
     pub flutter: f64,
     /// In which rhythm: that of its swelling, and of the three axes that it turns about.
@@ -115,7 +123,8 @@ impl Wave {
 
 impl Default for Own {
     fn default() -> Self {
-        Self { air: 1.0, stiffness: 1.0, flutter: 0.0, rhythm: [[Wave::default(); 2]; 4] }
+        let rhythm = [[Wave::default(); 2]; 4];
+        Self { air: 1.0, stiffness: 1.0, hold: 1.0, settle: 1.0, wind: 1.0, drag: 1.0, flutter: 0.0, rhythm }
     }
 }
 
@@ -123,17 +132,22 @@ impl Own {
     /// Times the air that a flyaway takes, and the most that any strand does.
     const MOST_AIR: f64 = 3.0;
 
+    /// Factor on the force of the field, before it flutters.
+    pub(crate) fn share(&self) -> f64 {
+        self.wind * self.air
+    }
+
     /// What it makes of a force F of the field in a frame: s (F + b x F), of these s and b.
     pub(crate) fn wind(&self, frame: u32) -> (f64, DVec3) {
         let [swells, turns @ ..] =
             self.rhythm.map(|waves| waves.map(|wave| wave.angle(frame).sin()).iter().sum::<f64>());
-        (self.air * self.flutter.mul_add(swells, 1.0), self.flutter * DVec3::from(turns))
+        (self.share() * self.flutter.mul_add(swells, 1.0), self.flutter * DVec3::from(turns))
     }
 
     /// The most that this multiplies a force by.
     pub(crate) fn most_wind(&self) -> f64 {
         let most = 2.0 * self.flutter;
-        self.air * (1.0 + most) * (3.0 * most).mul_add(most, 1.0).sqrt()
+        self.share() * (1.0 + most) * (3.0 * most).mul_add(most, 1.0).sqrt()
     }
 }
 
@@ -155,6 +169,7 @@ impl LockVariation {
             stiffness: factor(self.stiffness, 2),
             flutter: self.flutter.into(),
             rhythm: std::array::from_fn(|i| std::array::from_fn(|j| wave(2 * i as u64 + j as u64))),
+            ..Own::default()
         }
     }
 }

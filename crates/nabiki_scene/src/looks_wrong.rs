@@ -7,6 +7,7 @@ mod unused;
 use glam::Vec3;
 use nabiki::dynamics::Form;
 use nabiki::head::Opening;
+use nabiki::region::Region;
 use nabiki::{Head, Pose};
 use nabiki_groom::style::Cut;
 use nabiki_io::info::Short;
@@ -38,6 +39,7 @@ fn advice(built: &BuiltScene) -> Vec<Advice> {
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
     advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unbound(built)));
     advice.extend(cropped(built));
+    advice.extend(empty_regions(built));
     advice.extend(open_bodies(built));
     advice.extend(within_the_head(built));
     advice.extend(leap(built));
@@ -150,6 +152,23 @@ fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
              it, give normal = {}",
             Short(cut.shortest),
             vector(Vec3::ZERO - cut.normal)
+        );
+        Advice::new(seen)
+    })
+}
+
+/// Regions without hair.
+fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
+    let regions = match &built.dynamics.form {
+        Form::Free(free) => free.form.regions.as_slice(),
+        Form::Paper => &[],
+    };
+    let strands = built.strands();
+    let empty = move |region: &Region| strands.iter().all(|strand| region.weight(strand[0]) == 0.0);
+    regions.iter().enumerate().filter(move |(_, region)| empty(region)).map(|(i, region)| {
+        let seen = format!(
+            "free.regions[{i}] contains no hair: no root is within {} cm of it. Correct near, or raise within",
+            Short(region.within + region.soft)
         );
         Advice::new(seen)
     })

@@ -253,6 +253,9 @@ impl Scene {
         self.check_speeds()?;
         if let Some(disturbance) = &self.disturbance {
             disturbance.check()?;
+            if self.form == FormChoice::Free {
+                return Err(disturbance.refused_in_the_free_form());
+            }
         }
         self.picture.check()?;
         self.output.check()?;

@@ -63,55 +63,70 @@ pub(crate) fn tangents(moved: &Moved, change: &Change, asked: &[Asked]) -> Resul
         // times as long. The paper's has its sines to share.
         let most = if moved.dynamics.form == Form::Paper { 16 } else { 8 };
         let count = (unknowns - first).min(most);
-        let columns = first..first + count;
-        match count {
-            0..=4 => some::<4>(moved, change, asked, columns, unknowns, &mut points)?,
-            5..=8 => some::<8>(moved, change, asked, columns, unknowns, &mut points)?,
-            _ => some::<16>(moved, change, asked, columns, unknowns, &mut points)?,
+        let part = Part { moved, change, asked, columns: first..first + count, unknowns };
+        match (&moved.dynamics.form, count) {
+            (Form::Paper, 0..=4) => part.of_paper::<4>(&mut points)?,
+            (Form::Paper, 5..=8) => part.of_paper::<8>(&mut points)?,
+            (Form::Paper, _) => part.of_paper::<16>(&mut points)?,
+            (Form::Free(free), 0..=4) => part.of_free::<4>(free, &mut points)?,
+            (Form::Free(free), _) => part.of_free::<8>(free, &mut points)?,
         }
         first += count;
     }
     Ok(points)
 }
 
-/// The tangents of some of the unknowns, at most N.
-fn some<const N: usize>(
-    moved: &Moved,
-    change: &Change,
-    asked: &[Asked],
+/// Some of the unknowns, at most the N of its methods.
+struct Part<'a> {
+    moved: &'a Moved<'a>,
+    change: &'a Change<'a>,
+    asked: &'a [Asked],
     columns: Range<usize>,
     unknowns: usize,
-    points: &mut Points,
-) -> Result<(), SettingError> {
-    let last = asked.iter().map(|asked| asked.frame).max().unwrap_or(0);
-    // Input and all that is made of it: of the frames that are stepped to.
-    let inputs: Vec<FrameInput> =
-        (moved.from() + 1..=last).map(|n| FrameInput::new(n, moved.poses, change.field)).collect();
-    let space = moved.dynamics.motion.force_space;
-    let airs: Vec<Gale<N>> = inputs.iter().map(|input| Gale::new(input, space, change, &columns)).collect();
-    let mut sinks = Sink::split(asked, points, columns.clone(), unknowns);
-    match &moved.dynamics.form {
-        Form::Paper => {
-            let polar_from_head = PolarAxis::new(moved.dynamics.polar_axis).polar_from_head();
-            let common = paper::Common { gamma: moved.dynamics.gamma(), polar_from_head };
-            let walk = PaperWalk { moved, common, airs: &airs };
-            sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink))
-        }
-        Form::Free(free) => {
-            let unknown = |column: Option<usize>| {
-                let mut factor = Dual::<N>::from(1.0);
-                if let Some(column) = column.filter(|column| columns.contains(column)) {
-                    factor.tangents[column - columns.start] = 1.0;
-                }
-                factor
-            };
-            let springs = Springs { stiffness: unknown(change.stiffness), settle: unknown(change.settle) };
-            let settings = inputs.iter().map(|input| free::Common::new(moved.dynamics, free, input)).collect();
-            let walk = FreeWalk { moved, free, springs, settings, airs: &airs };
-            match &free.neighbours {
-                None => sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink)),
-                Some(neighbours) => together(&walk, neighbours, &inputs, &mut sinks),
+}
+
+impl Part<'_> {
+    /// Of the frames that are stepped to.
+    fn inputs(&self) -> Vec<FrameInput<'_>> {
+        let last = self.asked.iter().map(|asked| asked.frame).max().unwrap_or(0);
+        let Self { moved, change, .. } = self;
+        (moved.from() + 1..=last).map(|n| FrameInput::new(n, moved.poses, change.field)).collect()
+    }
+
+    fn airs<'b, const N: usize>(&'b self, inputs: &'b [FrameInput]) -> Vec<Gale<'b, N>> {
+        let space = self.moved.dynamics.motion.force_space;
+        inputs.iter().map(|input| Gale::new(input, space, self.change, &self.columns)).collect()
+    }
+
+    fn of_paper<const N: usize>(&self, points: &mut Points) -> Result<(), SettingError> {
+        let moved = self.moved;
+        let inputs = self.inputs();
+        let airs = self.airs::<N>(&inputs);
+        let polar_from_head = PolarAxis::new(moved.dynamics.polar_axis).polar_from_head();
+        let common = paper::Common { gamma: moved.dynamics.gamma(), polar_from_head };
+        let walk = PaperWalk { moved, common, airs: &airs };
+        let mut sinks = Sink::split(self.asked, points, self.columns.clone(), self.unknowns);
+        sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink))
+    }
+
+    fn of_free<const N: usize>(&self, free: &FreeMotion, points: &mut Points) -> Result<(), SettingError> {
+        let Self { moved, change, columns, .. } = self;
+        let inputs = self.inputs();
+        let airs = self.airs::<N>(&inputs);
+        let unknown = |column: Option<usize>| {
+            let mut factor = Dual::<N>::from(1.0);
+            if let Some(column) = column.filter(|column| columns.contains(column)) {
+                factor.tangents[column - columns.start] = 1.0;
             }
+            factor
+        };
+        let springs = Springs { stiffness: unknown(change.stiffness), settle: unknown(change.settle) };
+        let settings = inputs.iter().map(|input| free::Common::new(moved.dynamics, free, input)).collect();
+        let walk = FreeWalk { moved, free, springs, settings, airs: &airs };
+        let mut sinks = Sink::split(self.asked, points, columns.clone(), self.unknowns);
+        match &free.neighbours {
+            None => sinks.par_iter_mut().try_for_each(|sink| alone(&walk, moved.from(), sink)),
+            Some(neighbours) => together(&walk, neighbours, &inputs, &mut sinks),
         }
     }
 }

@@ -3,12 +3,14 @@
 use std::fmt;
 use std::path::Path;
 
+use glam::Vec3;
 use nabiki::body::Contact;
 use nabiki::disturbance::Disturbance;
 use nabiki::dynamics::{Form, Motion};
 use nabiki::field::{Ease, Keyframe};
 use nabiki::free_form::{FreeForm, NeighbourForces};
 use nabiki::pseudo_force::PseudoForce;
+use nabiki::region::Region;
 use nabiki::setting::{Datum, Kind, Setting, Settings, Table, Value};
 use nabiki::{Ellipsoid, Profile};
 use serde::Serialize;
@@ -249,8 +251,37 @@ impl fmt::Display for FreeInfo {
             let of = |key: &str, strength: f32| labelled::<NeighbourForces>(key, strength);
             write!(f, "\nneighbours: {}, {}", of("cohesion", *cohesion), of("pressure", *pressure))?;
         }
+        for (i, region) in given.regions.iter().enumerate() {
+            write!(f, "\nfree.regions[{i}]: {}", OneLine(&region_in_words(region)))?;
+        }
         Ok(())
     }
+}
+
+/// A region: `fringe, roots within 4 to 6 cm of (8.5, 4, 0): hold x 3, wind x 0.3`.
+fn region_in_words(region: &Region) -> String {
+    let point = |p: Vec3| {
+        let [x, y, z] = p.to_array().map(Short);
+        format!("({x}, {y}, {z})")
+    };
+    let name = if region.name.is_empty() { String::new() } else { format!("{}, ", region.name) };
+    let place = match region.to {
+        None => point(region.near),
+        Some(to) => format!("the line from {} to {}", point(region.near), point(to)),
+    };
+    let [inner, outer] = [region.within, region.within + region.soft].map(Short);
+    let factors = [
+        ("stiffness", region.stiffness),
+        ("hold", region.hold),
+        ("settle", region.settle),
+        ("wind", region.wind),
+        ("drag", region.drag),
+    ];
+    let told: Vec<String> = (factors.into_iter().filter(|&(_, factor)| factor != 1.0))
+        .map(|(key, factor)| format!("{key} x {}", Short(factor)))
+        .collect();
+    let told = if told.is_empty() { "no change".to_owned() } else { told.join(", ") };
+    format!("{name}roots within {inner} to {outer} cm of {place}: {told}")
 }
 
 /// A setting of `[free]` as it is given, and what that comes to where it is given in a unit of the world:

@@ -3,6 +3,7 @@
 use nabiki::dynamics::{Dynamics, earth_gravity, stiffness_of, substeps};
 use nabiki::free_form::{FreeForm, Tie};
 use nabiki::locks::LockVariation;
+use nabiki::region::Region;
 use nabiki::setting::{Place, refused};
 use nabiki::{Profile, SettingError, settings};
 
@@ -36,6 +37,8 @@ settings! {
         /// Differences between locks, so that they part in the wind.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub variation: Option<LockVariation> => of FreeForm, open "locks do not differ";
+        /// Parts of the hair that move differently, such as a fringe that stays.
+        pub regions: Vec<Region> => of FreeForm;
         /// A band that ties hair. Strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub tie: Option<Tie> => of FreeForm, open "none";
@@ -61,7 +64,8 @@ pub(crate) struct MeanLengths {
 impl FreeSettings {
     /// The same in the unit of the force and in frames, as steppers take it, for hair of these lengths.
     pub(crate) fn resolved(&self, dynamics: &Dynamics, mean: MeanLengths) -> FreeForm {
-        let Self { stiffness, hold, settle, gravity, drag, pseudo_force, variation, tie, substeps: steps } = self;
+        let Self { stiffness, hold, settle, gravity, drag, pseudo_force, variation, regions, tie, substeps: steps } =
+            self;
         let earth = f64::from(earth_gravity(dynamics, mean.strand));
         let gravity = gravity.number(|g| g * earth);
         let bent = |cm: f64| stiffness_of(dynamics, gravity.into(), mean.strand, cm);
@@ -73,6 +77,7 @@ impl FreeSettings {
             drag: drag.clone(),
             pseudo_force: *pseudo_force,
             variation: *variation,
+            regions: regions.clone(),
             tie: *tie,
             substeps: *steps,
         };

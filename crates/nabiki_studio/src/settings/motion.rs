@@ -42,6 +42,14 @@ pub(super) const GROUPS: &[Group] = &[
     .shaped(Shape::Optional(""))
     .when(When::Free),
     Group::new(
+        "Regions",
+        "free.regions",
+        "Hair that moves differently from the rest, such as a fringe that stays.",
+        &["name", "near", "to", "within", "soft", "stiffness", "hold", "settle", "wind", "drag"],
+    )
+    .shaped(Shape::List("near = [8.5, 4.0, 0.0]\nwithin = 4.0\nhold = 3.0\nwind = 0.3"))
+    .when(When::Free),
+    Group::new(
         "Tie",
         "free.tie",
         "A band that ties the hair. From root to band, the hair does not move.",

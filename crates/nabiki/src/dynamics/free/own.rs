@@ -8,7 +8,7 @@ use crate::vector::{add, cross, scale};
 /// [`Own`] of every strand of a block.
 #[derive(Clone, Debug)]
 pub(super) struct OwnRow {
-    air: Row,
+    share: Row,
     flutter: Row,
     rhythm: [[WaveRow; 2]; 4],
 }
@@ -22,9 +22,9 @@ struct WaveRow {
 impl OwnRow {
     /// Lanes without a strand do as all others would, were they alike.
     pub fn of(strands: impl Iterator<Item = Own>) -> Self {
-        let mut of = Self { air: Row([1.0; LANES]), flutter: Row::default(), rhythm: Default::default() };
+        let mut of = Self { share: Row([1.0; LANES]), flutter: Row::default(), rhythm: Default::default() };
         for (lane, own) in strands.enumerate() {
-            (of.air.0[lane], of.flutter.0[lane]) = (own.air as f32, own.flutter as f32);
+            (of.share.0[lane], of.flutter.0[lane]) = (own.share() as f32, own.flutter as f32);
             for (row, wave) in of.rhythm.as_flattened_mut().iter_mut().zip(own.rhythm.as_flattened()) {
                 (row.frequency.0[lane], row.phase.0[lane]) = (wave.frequency, wave.phase);
             }
@@ -44,7 +44,7 @@ impl OwnRow {
                 }
             }
         }
-        let mut wind = WindRow { scale: self.air, turn: PointRow::default() };
+        let mut wind = WindRow { scale: self.share, turn: PointRow::default() };
         for lane in 0..LANES {
             let flutter = self.flutter.0[lane];
             wind.scale.0[lane] *= flutter.mul_add(sums[0].0[lane], 1.0);

@@ -45,7 +45,9 @@ pub fn substeps(dynamics: &Dynamics, form: &FreeForm, gravity: f32, [length, seg
     let push = push(dynamics, length);
     let swing = (push * f64::from(gravity) / length).sqrt();
     let stiffest = form.stiffness.values().iter().fold(0.0_f32, |most, k| most.max(*k));
-    let ripple = joints::bending(dynamics, push, length, stiffest.into()).sqrt() / segment.powi(2);
+    let stiffest =
+        f64::from(stiffest) * form.regions.iter().map(|region| f64::from(region.stiffness.max(1.0))).product::<f64>();
+    let ripple = joints::bending(dynamics, push, length, stiffest).sqrt() / segment.powi(2);
     (swing / SWING).max(ripple / RIPPLE).ceil().clamp(2.0, 32.0) as u32
 }
 
@@ -114,7 +116,8 @@ pub(in crate::dynamics) fn free_segments(
         beyond += mass;
         carries += weight::moment(points[i + 1] - points[i], beyond * rest_weight);
         let middle = length * shape.middle;
-        let held = form.hold.at(shape.middle) + weight::held_up(&free.rest_pose, form.gravity.into(), still(i).rest);
+        let held = own.hold * form.hold.at(shape.middle)
+            + weight::held_up(&free.rest_pose, form.gravity.into(), still(i).rest);
         segments[i] = FreeSegment {
             push,
             lightness: 1.0 / mass,
@@ -122,8 +125,8 @@ pub(in crate::dynamics) fn free_segments(
                 / (0.5 * (before + shape.length)),
             carries,
             hold: hold::moment_per_radian(push, held, length - middle, shape.length),
-            air: own.air * form.air(shape.middle) / f64::from(dynamics.motion.slow),
-            drag: form.drag.at(shape.middle),
+            air: own.air * form.air(shape.middle) / (own.settle * f64::from(dynamics.motion.slow)),
+            drag: own.drag * form.drag.at(shape.middle),
             ..segments[i]
         };
     }

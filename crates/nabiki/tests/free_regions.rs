@@ -1,0 +1,118 @@
+//! Regions: hair of one moves as all hair would under its settings, and other hair does not notice it.
+
+mod common;
+
+use common::{bits, exact, fast, field, free, hair, run, run_under, way_of_a_head, wind};
+use glam::Vec3;
+use nabiki::dynamics::{FrameInput, Stepper};
+use nabiki::free_form::FreeForm;
+use nabiki::region::Region;
+use nabiki::{Pose, Profile, Strands};
+
+const FRAMES: u32 = 40;
+
+/// All of a head.
+fn everywhere() -> Region {
+    Region { near: Vec3::ZERO, within: 100.0, soft: 0.0, ..Region::default() }
+}
+
+/// The half of a head with z > 0, but for a border.
+fn left() -> Region {
+    Region { near: Vec3::new(0.0, 0.0, 100.0), within: 98.0, soft: 4.0, ..Region::default() }
+}
+
+fn with(regions: Vec<Region>) -> FreeForm {
+    FreeForm { regions, ..FreeForm::default() }
+}
+
+/// Factors are powers of 2, so that either way of multiplying rounds alike.
+#[test]
+fn hair_of_a_region_moves_as_all_hair_does_under_its_settings() {
+    let strands = hair(20, 12);
+    let form = FreeForm { hold: Profile::Even(32.0), ..FreeForm::default() };
+    let changed = FreeForm {
+        stiffness: Profile::RootToTip(vec![24_000.0, 2000.0]),
+        hold: Profile::Even(128.0),
+        settle: Profile::Even(10.0),
+        drag: Profile::Even(0.5),
+        ..form.clone()
+    };
+    let region = Region { stiffness: 2.0, hold: 4.0, settle: 0.5, drag: 0.5, ..everywhere() };
+    let regional = FreeForm { regions: vec![region], ..form };
+    let poses = way_of_a_head(FRAMES);
+    let motion = |form: &FreeForm| {
+        let dynamics = free(form.clone());
+        let exact = run_under(&mut exact(&strands, &dynamics, &wind()), &wind(), &poses);
+        (bits(&exact), bits(&run_under(&mut fast(&strands, &dynamics, &wind()), &wind(), &poses)))
+    };
+    assert_eq!(motion(&regional), motion(&changed));
+}
+
+#[test]
+fn a_share_of_the_wind_is_a_wind_of_that_share() {
+    let strands = hair(20, 12);
+    let half = field(&[(50, [-50.0, 0.0, 0.0]), (100, [-7.5, -75.0, 0.0])]);
+    let regional = free(with(vec![Region { wind: 0.5, ..everywhere() }]));
+    let plain = free(FreeForm::default());
+    let exact_of = |dynamics, wind| bits(&run(&mut exact(&strands, dynamics, wind), wind, FRAMES));
+    assert_eq!(exact_of(&regional, &wind()), exact_of(&plain, &half));
+    let fast_of = |dynamics, wind| bits(&run(&mut fast(&strands, dynamics, wind), wind, FRAMES));
+    assert_eq!(fast_of(&regional, &wind()), fast_of(&plain, &half));
+}
+
+#[test]
+fn hair_outside_keeps_its_bits_and_hair_that_no_wind_moves_rests_to_the_bit() {
+    let strands = hair(60, 12);
+    let still = Region { wind: 0.0, ..left() };
+    let without = run(&mut fast(&strands, &free(FreeForm::default()), &wind()), &wind(), FRAMES);
+    let together = run(&mut fast(&strands, &free(with(vec![still.clone()])), &wind()), &wind(), FRAMES);
+    let (mut inside, mut outside) = (0, 0);
+    for s in 0..strands.len() {
+        match still.weight(strands.strand(s)[0]) {
+            1.0 => {
+                assert_eq!(together.strand(s), strands.strand(s), "{s}");
+                inside += 1;
+            }
+            0.0 => {
+                assert_eq!(together.strand(s), without.strand(s), "{s}");
+                outside += 1;
+            }
+            _ => {}
+        }
+    }
+    assert!(inside > 10 && outside > 10, "{inside} in, {outside} out");
+}
+
+/// The region is of the place of a root, so a few strands move as they do among all.
+#[test]
+fn a_subset_moves_as_it_does_within_the_whole() {
+    let strands = hair(60, 12);
+    let dynamics = free(with(vec![Region { hold: 5.0, wind: 0.3, ..left() }]));
+    let all = run(&mut fast(&strands, &dynamics, &wind()), &wind(), FRAMES);
+    let few: Vec<usize> = (0..60).step_by(7).collect();
+    let alone = run(&mut fast(&strands.select(&few), &dynamics, &wind()), &wind(), FRAMES);
+    assert_eq!(bits(&alone), bits(&all.select(&few)));
+}
+
+/// As without: see `the_twins_agree`.
+#[test]
+fn the_twins_agree_on_regions() {
+    let (strands, wind) = (hair(96, 18), wind());
+    let along = Region { to: Some(Vec3::new(0.0, 11.0, -9.0)), within: 3.0, soft: 5.0, wind: 1.5, ..left() };
+    let dynamics = free(with(vec![Region { hold: 3.0, stiffness: 1.7, drag: 0.3, ..left() }, along]));
+    let (mut reference, mut simulation) = (exact(&strands, &dynamics, &wind), fast(&strands, &dynamics, &wind));
+    for frame in 1..=100 {
+        let input = FrameInput::new(frame, &[Pose::STILL], &wind);
+        reference.step_frame(&input);
+        simulation.step_frame(&input);
+    }
+    let mut apart: Vec<f64> = reference
+        .positions()
+        .iter()
+        .zip(Strands::points(simulation.strands()))
+        .map(|(a, b)| a.distance(b.as_dvec3()))
+        .collect();
+    apart.sort_by(f64::total_cmp);
+    let most = apart.len() - 1;
+    assert!(apart[most - apart.len() / 1000] < 1e-3 && apart[most] < 1e-2, "{:e}", apart[most]);
+}
