@@ -138,7 +138,7 @@ impl BodyWay {
             Self::InWorld(poses) if poses.len() <= frames as usize => {
                 let length = if poses.len() == 1 { "1 frame".to_owned() } else { format!("{} frames", poses.len()) };
                 let remedy =
-                    format!("the scene goes on to frame {frames}: make motion.frames smaller, or the motion longer");
+                    format!("ends before the last frame, {frames}: lower motion.frames, or give a longer motion");
                 Err(SettingError::new(format!("{name}.motion"), length, remedy))
             }
             _ => Ok(()),
@@ -191,15 +191,15 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     let count = mesh.positions.len();
     let refused = |what: &str, remedy: &str| Err(SettingError::new(thing, what, remedy));
     if mesh.triangles.is_empty() || mesh.triangles.iter().flatten().any(|&v| v as usize >= count) {
-        return refused("no triangles", "give a mesh of triangles");
+        return refused("", "has no triangles, or names vertices that it lacks: give a valid mesh");
     }
     if mesh.positions.iter().any(|p| !p.is_finite()) {
-        return refused("a vertex that is not finite", "every coordinate must be a finite number");
+        return refused("", "has a vertex that is not finite: every coordinate must be a finite number");
     }
     let [low, high] = bounds(&mesh.positions);
     let side = |cm: f32| if cm < 1e5 { format!("{}", (1e3 * cm).round() / 1e3) } else { format!("{cm:.1e}") };
     let size = format!("{} cm", (high - low).to_array().map(side).join(" x "));
-    let sheet = "a sheet encloses no space, or next to none, so it has no inside: make it thicker";
+    let sheet = "a sheet encloses no space: make it thicker";
     let thickness = (high - low).min_element();
     if thickness <= 0.0 {
         return refused(&size, sheet);

@@ -41,7 +41,7 @@ impl Disturbance {
         if self.over <= self.every {
             return Ok(());
         }
-        let remedy = format!("must lie in 1..{}, the frames from one disturbance to the next", self.every);
+        let remedy = format!("must lie in 1..{}, the number of frames between disturbances", self.every);
         refused(&at.key("over"), self.over, remedy)
     }
 

@@ -184,7 +184,7 @@ fn check_mesh(mesh: &Mesh) -> Result<(), SettingError> {
     let triangles = mesh.triangles.len();
     if let Some(uvs) = mesh.corner_uvs.as_ref().filter(|uvs| uvs.len() != triangles) {
         let value = format!("texture coordinates of {} triangles", uvs.len());
-        return Err(SettingError::new("head.mesh", value, format!("must have them for all its {triangles} or none")));
+        return Err(SettingError::new("head.mesh", value, format!("must have {triangles}, or none")));
     }
     let finite = |uvs: &[Vec2; 3]| uvs.iter().all(|uv| uv.is_finite());
     if let Some(t) = mesh.corner_uvs.iter().flatten().position(|uvs| !finite(uvs)) {
@@ -222,7 +222,7 @@ fn check_size(mesh: &Mesh, ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
         return Ok(());
     }
     let remedy = format!(
-        "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: correct head.unit",
+        "its ellipsoid's half axes must lie in {} cm to {} cm (a person's are about 9 cm): correct head.unit",
         HALF_AXES[0], HALF_AXES[1]
     );
     Err(refused_mesh(mesh, format!("a head of {size:.3e} cm"), &remedy))

@@ -44,7 +44,7 @@ pub fn check_points(name: &str, segments: usize, strands: usize) -> Result<(), S
     let points = segments.checked_add(1).and_then(|points| points.checked_mul(strands));
     match points {
         Some(points) if points <= u32::MAX as usize => Ok(()),
-        _ => Err(SettingError::new(name, segments, "more than 2^32 points in all: ask for fewer")),
+        _ => Err(SettingError::new(name, segments, "gives more than 2^32 points in all: ask for fewer")),
     }
 }
 
@@ -216,7 +216,7 @@ mod tests {
         // 2^32 - 1 = 65,535 x 65,537.
         assert_eq!(check_points("hair.segments", 65_536, 65_535), Ok(()));
         let refused = check_points("hair.segments", 65_537, 65_535).unwrap_err();
-        assert_eq!(refused.to_string(), "hair.segments = 65537: more than 2^32 points in all: ask for fewer");
+        assert_eq!(refused.to_string(), "hair.segments = 65537: gives more than 2^32 points in all: ask for fewer");
         assert!(check_points("hair.segments", usize::MAX, 1).is_err());
     }
 

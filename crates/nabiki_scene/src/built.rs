@@ -176,7 +176,7 @@ impl BuiltScene {
         };
         let key = if self.scene.hair.grown().is_some() { "hair.strands" } else { "hair.file" };
         let what = format!("{} strands of {} segments in all", strands.len(), strands.segment_count());
-        let remedy = format!("to move them {short}: show fewer of them, or simulate them in shards");
+        let remedy = format!("moving them {short}: show fewer, or simulate them in shards");
         Err(self.scene.refusal(SettingError::new(key, what, remedy)).into())
     }
 
@@ -305,7 +305,7 @@ impl BuiltScene {
     /// because no other setting would help then.
     pub fn refusal(&self, mut refused: SettingError) -> Error {
         let units = self.advice().into_iter().filter(Advice::is_of_unit);
-        units.for_each(|advice| refused.remedy += &format!("; look first at the size: {advice}"));
+        units.for_each(|advice| refused.remedy += &format!("; check the size first: {advice}"));
         self.scene.refusal(refused).into()
     }
 }

@@ -52,7 +52,7 @@ impl Error {
             // A file that is not there, or a word, has no size.
             && !value.starts_with('"')
         {
-            *remedy += &format!("; look first at the size: {size}");
+            *remedy += &format!("; check the size first: {size}");
         }
         self
     }

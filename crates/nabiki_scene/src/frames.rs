@@ -87,7 +87,7 @@ fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
     };
     let scene = built.scene.file().display();
     Error::refused(format!(
-        "{scene}: frame {frame}: the hair diverges beyond finite numbers, point {point} among others; {way_out}"
+        "{scene}: frame {frame}: the hair diverges: point {point} and perhaps others are no longer finite; {way_out}"
     ))
 }
 

@@ -35,7 +35,7 @@ impl Folders {
         if path.is_dir() {
             writable(path).map_err(|e| refused(path, "cannot write in this folder", e, way_out))
         } else {
-            let is = if path.exists() { "a file, not a folder" } else { "a link to nothing" };
+            let is = if path.exists() { "a file, not a folder" } else { "a broken link" };
             Err(Error::place(path, format!("this is {is}; move it away, or {way_out}"), ErrorKind::NotADirectory))
         }
     }

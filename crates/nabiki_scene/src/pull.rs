@@ -92,7 +92,7 @@ impl Pull {
             }
         });
         if let Err(e) = spawned {
-            theirs.lock().news = Some(Err(format!("no wind can be looked for: {e}")));
+            theirs.lock().news = Some(Err(format!("cannot search for a wind: {e}")));
         }
         Self { shared }
     }

@@ -96,15 +96,15 @@ pub(super) fn segment_shapes(
 ) -> Result<Vec<SegmentShape>, SettingError> {
     let thing = || format!("hair strand {s}");
     if strand.len() < 2 {
-        return Err(SettingError::new(thing(), format!("{} points", strand.len()), "needs at least 2 points"));
+        return Err(SettingError::new(thing(), "", format!("has {} points: a strand needs at least 2", strand.len())));
     }
     if let Some(p) = strand.iter().find(|p| !p.is_finite()) {
         return Err(SettingError::new(thing(), p, "every coordinate must be a finite number"));
     }
     let lengths: Vec<f64> = strand.windows(2).map(|w| w[0].as_dvec3().distance(w[1].as_dvec3())).collect();
     if let Some(i) = lengths.iter().position(|&length| length as f32 <= 0.0) {
-        let remedy = "remove the doubled point: a segment needs a direction";
-        return Err(SettingError::new(thing(), format!("segment {} of length 0", i + 1), remedy));
+        let remedy = format!("has segment {} of length 0: remove the duplicate point", i + 1);
+        return Err(SettingError::new(thing(), "", remedy));
     }
     let d = f64::from(dynamics.segment_length);
     let total: f64 = lengths[held..].iter().sum();

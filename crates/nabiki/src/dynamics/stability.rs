@@ -62,7 +62,7 @@ impl Stability {
     /// Refuses no strands, and those that cannot be moved.
     pub fn of(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
         if strands.is_empty() {
-            return Err(SettingError::new("hair", "0 strands", "nothing to simulate; give at least one strand"));
+            return Err(SettingError::new("hair", "", "has 0 strands: give at least one"));
         }
         let (mut worst, mut least) = (Self { gain: 0.0, own: 0.0 }, f64::INFINITY);
         let own = dynamics.form.pulls().iter().map(|pull| pull.strongest()).sum::<f64>();
@@ -163,16 +163,16 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     let sum = if terms.is_empty() { "|F|".to_owned() } else { format!("(|F| + {})", terms.join(" + ")) };
     let (gain, finer) = match dynamics.form {
         Form::Paper => ("c_i", ""),
-        Form::Free(_) => ("A h^2 / L", "give free.substeps more, "),
+        Form::Free(_) => ("A h^2 / L", "raise free.substeps, "),
     };
     let ways = format!(
-        "{finer}make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its neighbours"
+        "{finer}lower motion.time_step, or set motion.inertia_length_floor so that its neighbours hold short hair"
     );
     let refused = |thing: &str, value: String, keep: String| {
         let reached = if reached < 1e6 { format!("{reached:.3}") } else { format!("{reached:.1e}") };
         let metres = in_metres(hair, dynamics);
         let remedy = format!(
-            "unstable: {gain} {sum} reaches {reached} at {place}, and must stay below 4; {keep}, {ways}{metres}"
+            "unstable: {gain} {sum} reaches {reached} at {place}, but must stay below 4; {keep}, {ways}{metres}"
         );
         SettingError::new(thing, value, remedy)
     };

@@ -45,14 +45,20 @@ impl Header {
     pub fn check(&self, own: &Self) -> Result<(), SettingError> {
         let form = |header: &Self| if header.is_free { "the free form" } else { "the paper's form" };
         if self.is_free != own.is_free {
-            let remedy = format!("this hair moves by {}: give it that motion.form, or begin from rest", form(own));
-            return Err(refused(format!("of {}", form(self)), &remedy));
+            let remedy = format!(
+                "is of {}, but this hair moves by {}: set the same motion.form, or begin from rest",
+                form(self),
+                form(own)
+            );
+            return Err(refused(String::new(), &remedy));
         }
         if (self.points, self.numbers, self.hair) != (own.points, own.numbers, own.hair) {
-            let of = format!("of other hair, of {} points", self.points);
-            let remedy =
-                format!("this hair has {}; give the strands that it was saved from, or begin from rest", own.points);
-            return Err(refused(of, &remedy));
+            let remedy = format!(
+                "is of other hair, of {} points, but this hair has {}: give the strands it was saved from, or begin \
+                 from rest",
+                self.points, own.points
+            );
+            return Err(refused(String::new(), &remedy));
         }
         Ok(())
     }
@@ -129,25 +135,30 @@ impl<'a> Reader<'a> {
     pub fn new(bytes: &'a [u8], own: &Header) -> Result<Self, SettingError> {
         let found = || format!("{} bytes", bytes.len());
         if bytes.len() < HEADER + CHECKSUM || bytes[..7] != MAGIC[..7] {
-            return Err(refused(found(), "were not written by state_bytes, or are cut short"));
+            return Err(refused(found(), "was not written by state_bytes, or is cut short"));
         }
         if bytes[7] != MAGIC[7] {
-            let remedy =
-                format!("written by another version of nabiki, this one reads layout {}: begin from rest", MAGIC[7]);
-            return Err(refused(format!("of layout {}", bytes[7]), &remedy));
+            let remedy = format!(
+                "has layout {} of another version of nabiki, but this one reads layout {}: begin from rest",
+                bytes[7], MAGIC[7]
+            );
+            return Err(refused(String::new(), &remedy));
         }
         let word = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         let long = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         if long(8) != bytes.len() as u64 {
-            return Err(refused(format!("{} of {}", found(), long(8)), "are cut short, or followed by others"));
+            return Err(refused(format!("{} of {}", found(), long(8)), "is cut short, or has bytes after its end"));
         }
         let end = bytes.len() - CHECKSUM;
         if checksum(&bytes[..end]) != long(end) {
-            return Err(refused(found(), "are altered: their checksum does not match"));
+            return Err(refused(found(), "is altered: its checksum does not match"));
         }
         if word(16) != METHOD_VERSION {
-            let remedy = format!("this is version {METHOD_VERSION}, in which hair moves differently: begin from rest");
-            return Err(refused(format!("of METHOD_VERSION {}", word(16)), &remedy));
+            let remedy = format!(
+                "has METHOD_VERSION {}, but hair moves differently in this one, {METHOD_VERSION}: begin from rest",
+                word(16)
+            );
+            return Err(refused(String::new(), &remedy));
         }
         let header = Header {
             is_free: word(20) != 0,
@@ -162,7 +173,7 @@ impl<'a> Reader<'a> {
         header.check(own)?;
         let numbers: &[[u8; 4]] = bytes[HEADER..end].as_chunks().0;
         if header.numbers.checked_add(header.of_carriers) != Some(numbers.len() as u64) {
-            return Err(refused(found(), "do not match their header"));
+            return Err(refused(found(), "does not match its header"));
         }
         Ok(Self { header, numbers })
     }

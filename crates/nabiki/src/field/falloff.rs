@@ -110,7 +110,7 @@ pub(super) fn largest(keys: &[EnvelopeKey]) -> f32 {
 /// Refuses keys of the table `at` whose frames do not ascend.
 pub(super) fn check_order(at: &Place, keys: &[EnvelopeKey]) -> Result<(), SettingError> {
     let Some(i) = keys.windows(2).position(|pair| pair[1].frame <= pair[0].frame) else { return Ok(()) };
-    let remedy = format!("must come after frame {}, that of the key before it", keys[i].frame);
+    let remedy = format!("must come after frame {}, the frame of the key before it", keys[i].frame);
     refused(&at.key("envelope").entry(i + 1).key("frame"), keys[i + 1].frame, remedy)
 }
 

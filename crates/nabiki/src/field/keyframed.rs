@@ -54,7 +54,7 @@ impl KeyframedField {
     /// `force[j]`, counted from 0 as in overrides of a scene file.
     pub fn new(keyframes: &[Keyframe]) -> Result<Self, SettingError> {
         if keyframes.is_empty() {
-            return Err(SettingError::new("force", "none", "a field needs at least one keyframe"));
+            return Err(SettingError::new("force", "", "has no keyframes: give at least one"));
         }
         let mut previous = 0;
         for (j, key) in keyframes.iter().enumerate() {

@@ -46,8 +46,8 @@ impl Aims {
     pub fn new(problem: &Problem) -> Result<Self, SettingError> {
         let Problem { hair, wishes, dynamics, .. } = problem;
         if wishes.is_empty() {
-            let remedy = "nothing to solve for: give a wish";
-            return Err(SettingError::new("wish", "none", remedy));
+            let remedy = "has no entries, so there is nothing to solve for: give one";
+            return Err(SettingError::new("wish", "", remedy));
         }
         for (i, wish) in wishes.iter().enumerate() {
             check(wish, i, problem, dynamics.motion.frames)?;
@@ -262,17 +262,17 @@ fn check(wish: &Wish, i: usize, problem: &Problem, frames: u32) -> Result<(), Se
         return refused("weight", wish.weight.to_string(), "must be a finite number above 0".to_owned());
     }
     if wish.nodes.is_empty() {
-        return refused("nodes", "none".to_owned(), "the wish contains no node: give a larger radius".to_owned());
+        return refused("nodes", String::new(), "has no entries: give a larger radius".to_owned());
     }
     for node in &wish.nodes {
         let strand = node.strand as usize;
         if strand >= problem.hair.len() {
-            let remedy = format!("there are {} strands, 0 to {}", problem.hair.len(), problem.hair.len() - 1);
+            let remedy = format!("must be one of the {} strands, 0 to {}", problem.hair.len(), problem.hair.len() - 1);
             return refused("strands", node.strand.to_string(), remedy);
         }
         let points = problem.hair.strand(strand).len();
         if node.node == 0 || node.node as usize >= points {
-            let remedy = format!("strand {strand} has nodes 1 to {} that move", points - 1);
+            let remedy = format!("only nodes 1 to {} of strand {strand} move", points - 1);
             return refused("nodes", node.node.to_string(), remedy);
         }
     }

@@ -84,8 +84,8 @@ impl Layout {
     /// Refuses unknowns that there are not, none, and the same one twice.
     pub fn new(unknowns: &[Unknown], wind: &KeyedWind, dynamics: &Dynamics) -> Result<Self, SettingError> {
         if unknowns.is_empty() {
-            let remedy = "nothing may change: free a vector, a border, the gusts, stiffness or settle";
-            return Err(SettingError::new("unknowns", "none", remedy));
+            let remedy = "is empty, so nothing may change: free a vector, a border, the gusts, stiffness or settle";
+            return Err(SettingError::new("unknowns", "", remedy));
         }
         let (mut placed, mut numbers) = (Vec::with_capacity(unknowns.len()), 0);
         let intervals = wind.keyframes.len();
@@ -246,12 +246,12 @@ fn times(profile: &Profile, factor: f64) -> Profile {
 fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynamics) -> Result<(), SettingError> {
     let there = || match intervals {
         0 => "there is no [[force]]: ask for a new interval".to_owned(),
-        1 => "there is one [[force]], number 0; or ask for a new interval".to_owned(),
-        n => format!("there are {n} [[force]], 0 to {}; or ask for a new interval", n - 1),
+        1 => "the only [[force]] is number 0: name it, or ask for a new interval".to_owned(),
+        n => format!("must be one of the {n} [[force]], 0 to {}: or ask for a new interval", n - 1),
     };
     let free = |thing: &str, of: fn(&FreeForm) -> &Profile| match &dynamics.form {
         Form::Free(free) if of(&free.form).values().iter().all(|&value| value == 0.0) => {
-            let remedy = "it is 0 everywhere, and the solver only scales it: give it a strength, or remove this";
+            let remedy = "the solver only scales it, but it is 0 everywhere: give it a strength, or remove this";
             Err(SettingError::new(thing, true, remedy))
         }
         Form::Free(_) => Ok(()),

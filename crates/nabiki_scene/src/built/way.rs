@@ -97,7 +97,7 @@ impl Way {
             return Ok(());
         }
         let remedy = format!(
-            "head.motion ends at frame {} and motion.frames = {frames}: make motion.frames smaller, or the file longer",
+            "head.motion ends at frame {} and motion.frames = {frames}: lower motion.frames, or give a longer file",
             given.saturating_sub(1)
         );
         Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())

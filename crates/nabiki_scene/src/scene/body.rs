@@ -71,7 +71,7 @@ impl BodySettings {
     /// Refuses what no body can be loaded from.
     fn can_be_loaded(&self, at: &Place) -> Result<(), SettingError> {
         if self.mesh.as_os_str().is_empty() {
-            return refused(&at.key("mesh"), "nothing", "give the file of its mesh");
+            return refused(&at.key("mesh"), "", "is missing: give the file of its mesh");
         }
         if self.with_head && self.motion.is_some() {
             let remedy = "a body that moves with the head cannot have its own motion: remove one of the two";

@@ -119,11 +119,11 @@ impl FieldSettings {
         let local = point.len() + vortex.len() + fan.len() + own.len();
         let none = force.is_empty() && body_wind.is_none() && turbulence.is_none() && local == 0;
         if none && !may_be_none {
-            let remedy = "give at least one [[force]] with through and vector, or another field";
-            return Err(SettingError::new("force", "none", remedy));
+            let remedy = "is missing: give at least one [[force]] with through and vector, or another field";
+            return Err(SettingError::new("force", "", remedy));
         }
         if force.is_empty() && wind.ease != Ease::Stepped {
-            let remedy = "there is no [[force]] to ease: give one, or remove it";
+            let remedy = "there is no [[force]] to ease: add one, or remove this";
             return Err(SettingError::new("wind.ease", wind.ease.word(), remedy));
         }
         if !force.is_empty() {
@@ -133,7 +133,7 @@ impl FieldSettings {
         if let Some(gust) = gust {
             gust.check()?;
             if force.is_empty() {
-                let remedy = "gusts change the strength of [[force]], and there is none: add one, or remove [gust]";
+                let remedy = "gusts change the strength of [[force]], but there is none: add one, or remove [gust]";
                 return Err(SettingError::new("gust", "on", remedy));
             }
         }
@@ -147,7 +147,7 @@ impl FieldSettings {
         if let Some(flow) = flow {
             flow.check()?;
             if force.is_empty() && body_wind.is_none() {
-                let remedy = "there is no [[force]] or [body_wind] to lead around the head: add one, or remove [flow]";
+                let remedy = "there is no [[force]] or [body_wind] to guide around the head: add one, or remove [flow]";
                 return Err(SettingError::new("flow", "on", remedy));
             }
         }

@@ -58,7 +58,7 @@ impl Refusal {
     fn not_one_table(list: &[Value], wanted: &str) -> Self {
         match list {
             [Value::Table(_), ..] => {
-                Self::kind("a list of tables", format!("{wanted}; in a file it begins with one bracket, [...]"))
+                Self::kind("a list of tables", format!("{wanted}; in a file, write [...] above it"))
             }
             _ => Self::kind(words(Unexpected::Seq), wanted),
         }
@@ -315,7 +315,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
         if self.0.is_table() {
-            let wanted = "a list in brackets, even of one; in a file, each table of a list begins with two, [[...]]";
+            let wanted = "a list in brackets, even of one entry; in a file, write [[...]] above each table of a list";
             return Err(Refusal::kind(words(Unexpected::Map), wanted));
         }
         self.deserialize_any(visitor)

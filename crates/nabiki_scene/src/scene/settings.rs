@@ -151,7 +151,7 @@ mod tests {
         assert!(["gust.seed", "force[7].vector"].iter().all(|key| scene().setting(key).unwrap().is_none()));
         for key in ["free.".to_owned() + &"a.".repeat(100_000) + "b", "force".to_owned() + &"[0]".repeat(100_000)] {
             let line = refused(&key, 1.into()).to_string();
-            assert!(line.contains("no setting lies so deep") && line.len() < 300, "{line}");
+            assert!(line.contains("no setting is nested so deep") && line.len() < 300, "{line}");
             assert_eq!(scene().setting(&key).unwrap_err().to_string(), line);
             let open = [(key.clone(), "1".to_owned())];
             assert!(Scene::parse("", "".as_ref(), &open).unwrap_err().to_string().len() < 300);

@@ -192,7 +192,7 @@ fn set(table: &mut Table, path: &str, text: &str, defaults: &impl Fn() -> Table)
     let value: Value = match text.parse() {
         Ok(value) => value,
         Err(_) if text.parse::<i128>().is_ok() => {
-            return Err(format!("{text} is outside the whole numbers of TOML, {} to {}", i64::MIN, i64::MAX));
+            return Err(format!("{text} is outside TOML's whole numbers, {} to {}", i64::MIN, i64::MAX));
         }
         Err(_) if begins_as_toml(text) => {
             return Err(format!("{text} is not a TOML value: write 0.5, not .5, and close each bracket and quote"));
@@ -251,7 +251,7 @@ fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> 
                 }
                 &mut values[index]
             }
-            other => return Err(format!("{so_far} is {} {other}, it has nothing below it", other.type_str())),
+            other => return Err(format!("{so_far} is {} {other}, which has no keys", other.type_str())),
         };
     }
     Ok(place)
@@ -262,7 +262,7 @@ fn check_depth(steps: &[String]) -> Result<(), String> {
     if steps.len() <= DEEPEST {
         return Ok(());
     }
-    Err(format!("{} names within one another: no setting lies so deep", steps.len()))
+    Err(format!("{} nested names: no setting is nested so deep", steps.len()))
 }
 
 /// The same of a path that is not taken apart yet.

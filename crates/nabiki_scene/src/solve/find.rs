@@ -110,7 +110,7 @@ impl Finder<'_> {
                 nodes.extend(part(s, along));
             }
             if nodes.is_empty() {
-                let remedy = "no moving node is there: use a longer part of the strands";
+                let remedy = "contains no moving node: use a longer part of the strands";
                 return Err(self.refused(&format!("{name}.along"), format!("{along:?}"), remedy));
             }
             return Ok(nodes);

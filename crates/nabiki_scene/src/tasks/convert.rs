@@ -219,7 +219,7 @@ impl Input {
         let Self::Groom(groom) = self else { return Ok(None) };
         let (frames, kept) = (groom.frames()?, options.frame.unwrap_or(0));
         let input = options.input.display();
-        Ok((frames > 1).then(|| format!("motion: it is frame {kept} of the {frames} in {input}")))
+        Ok((frames > 1).then(|| format!("motion: only frame {kept} of the {frames} in {input} is kept")))
     }
 }
 
@@ -341,7 +341,7 @@ fn under_layer<'c>(options: &ConvertOptions, prim: &str, cache: &'c Reader) -> R
     let fits = |in_file| exchange::check_layer(in_file, points).map_err(|e| e.in_file(&options.output));
     let origin = header.origin.as_ref();
     fits(origin.map(|origin| origin.points))?;
-    let Some(origin) = origin else { return Err(Error::refused("hair that was grown has no groom")) };
+    let Some(origin) = origin else { return Err(Error::refused("--export-layer: grown hair has no groom")) };
     let curves = origin.groom.under_layer(prim)?;
     // Curves of a single point are none that are read.
     fits(Some(curves.points))?;

@@ -57,7 +57,7 @@ impl Stage for Roots {
 
     fn make(inputs: RootsInputs, at: At<'_>) -> Result<Self> {
         let RootsInputs { model, hairline, seed, strands, count } = &inputs;
-        check_memory(at, "hair.strands", strands, roots::least_bytes(*strands), "to spread its roots", "grow less")?;
+        check_memory(at, "hair.strands", strands, roots::least_bytes(*strands), "spreading their roots", "grow fewer")?;
         let still = || (at.goes_on)(0.0);
         let list = roots::spread_first_while(&model.head, hairline, *strands, *count, *seed, &still);
         let list = list.map_err(|mut refused| {
@@ -121,6 +121,6 @@ fn check_growth(at: At<'_>, growth: &Growth<'_>, head: &Head, roots: &[Root]) ->
     let mean = tried.map_or(0.0, |hair| hair.strands.points().len() as f64 / few.len().max(1) as f64);
     // What is certain: those tried may be longer than most.
     let needed = bytes(0.9 * mean * roots.len() as f64);
-    let what_for = format!("to grow {} of them", roots.len());
+    let what_for = format!("growing {} of them", roots.len());
     check_memory(at, "hair.strands", growth.strands, needed, &what_for, "show fewer strands")
 }

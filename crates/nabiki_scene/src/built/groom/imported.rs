@@ -114,7 +114,7 @@ fn cut(hair: Hair, segments: Option<usize>, at: At<'_>) -> Result<Hair> {
     let Some(segments) = segments else { return Ok(hair) };
     let points = (hair.strands.len() as u64).saturating_mul(segments as u64 + 1);
     let needed = points.saturating_mul(size_of::<Vec3>() as u64);
-    check_memory(at, "hair.segments", segments, needed, "to cut it", "cut into fewer, or show fewer strands")?;
+    check_memory(at, "hair.segments", segments, needed, "cutting the strands", "ask for fewer, or show fewer strands")?;
     check_points("hair.segments", segments, hair.strands.len()).map_err(|refused| at.refusal(refused))?;
     Ok(hair.resampled(segments + 1))
 }
