@@ -122,7 +122,7 @@ impl<'a> Export<'a> {
         let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         if strands.starts() != self.hair.strands.starts() {
             let (found, expected) = (strands.points().len(), self.hair.strands.points().len());
-            return invalid(format!("{found} points in the frame, but {expected} in the groom: strands must not change"));
+            return invalid(format!("{found} points in the frame, {expected} in the groom: strands must not change"));
         }
         let points = if self.file_from_head == DAffine3::IDENTITY && self.course == Course::LINEAR {
             strands.points()

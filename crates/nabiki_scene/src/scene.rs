@@ -392,7 +392,7 @@ impl Scene {
         let text = self.to_toml()?;
         kind::check_scene_to_be(path, &text).map_err(|e| file_error(path, e))?;
         if text.len() as u64 > input::MOST_SCENE_BYTES {
-            let line = format!("would have {} bytes, but a scene may have at most {}", text.len(), input::MOST_SCENE_BYTES);
+            let line = format!("would be {} bytes: a scene may have at most {}", text.len(), input::MOST_SCENE_BYTES);
             return Err(file_error(path, nabiki_io::Error::new(line)));
         }
         Self::parse(&text, path, &[])?;

@@ -187,7 +187,7 @@ impl fmt::Display for SceneSummary {
         let [x, y, z] = self.half_axes;
         writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", OneLine(&self.head))?;
         if self.doubled_triangles > 0 {
-            writeln!(f, "          left out {} triangles of second sides", self.doubled_triangles)?;
+            writeln!(f, "          left out {} back-side triangles", self.doubled_triangles)?;
         }
         if self.turned_triangles > 0 {
             writeln!(f, "          turned {} triangles that faced inward", self.turned_triangles)?;

@@ -166,7 +166,7 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
         Form::Free(_) => ("A h^2 / L", "raise free.substeps, "),
     };
     let ways = format!(
-        "{finer}lower motion.time_step, or set motion.inertia_length_floor so that its neighbours hold short hair"
+        "{finer}lower motion.time_step, or set motion.inertia_length_floor so that neighbours hold short hair"
     );
     let refused = |thing: &str, value: String, keep: String| {
         let reached = if reached < 1e6 { format!("{reached:.3}") } else { format!("{reached:.1e}") };

@@ -136,7 +136,7 @@ fn check_counts(encoding: Encoding, elements: &[Element], body: &[u8]) -> Result
     let mut least = 0usize;
     for Element { name, count, properties } in elements {
         if properties.is_empty() && *count > 0 {
-            return Err(Error::new(format!("claims {count} of {name}, which have no properties")));
+            return Err(Error::new(format!("element {name} has {count} entries but no properties")));
         }
         let least_of = |property: &Property| match encoding {
             // A digit and a blank.
@@ -149,7 +149,7 @@ fn check_counts(encoding: Encoding, elements: &[Element], body: &[u8]) -> Result
         if least > body.len() + 1 {
             let found = body.len();
             return Err(Error::new(format!(
-                "claims {count} of {name}, more than fit in its {found} bytes: is it complete?"
+                "element {name} has {count} entries, more than fit in {found} bytes: is it complete?"
             )));
         }
     }
@@ -347,9 +347,9 @@ mod tests {
             assert!(file.contains(from), "{from}");
             from_bytes(file.replacen(from, to, 1).as_bytes()).unwrap_err().to_string()
         };
-        assert!(broken("vertex 4", "vertex 99999999999").contains("more than fit in its"));
+        assert!(broken("vertex 4", "vertex 99999999999").contains("more than fit in"));
         assert!(
-            broken("element face", "element vertex 9\nelement face").contains("9 of vertex, which have no properties")
+            broken("element face", "element vertex 9\nelement face").contains("vertex has 9 entries but no properties")
         );
         assert!(broken("0 1 2 3", "0 1 2 4").contains("vertex 4, but there are 4"));
         assert!(broken("0 1 2 3", "0 1 -2 3").contains("which is not a vertex number"));

@@ -126,7 +126,7 @@ impl Skeleton {
             }
             let word = words[0].to_ascii_lowercase();
             match (section.as_str(), word.as_str()) {
-                ("", _) => return Err(refusal(line, format!("\"{word:.40}\": a keyword like :version must come first"))),
+                ("", _) => return Err(refusal(line, format!("\"{word:.40}\": a keyword like :version comes first"))),
                 (":units", "length") => {
                     let length = number(line, words.get(1), "length")?;
                     if length <= 0.0 {
@@ -257,7 +257,7 @@ impl Skeleton {
             return Err(refusal(line, what));
         }
         if std::mem::replace(&mut row.frame[bone], sample) == sample {
-            return Err(refusal(line, format!("bone {name}: twice in one frame")));
+            return Err(refusal(line, format!("bone {name}: occurs twice in one frame")));
         }
         row.values[bone].clear();
         for word in words {

@@ -109,7 +109,7 @@ fn what_is_missing_or_does_not_fit_is_said_in_one_line() {
         ("Neck 0 90 0", "Neck 0 90", "bone Neck: 2 numbers, but the skeleton gives it 3 degrees of freedom"),
         ("Neck 0 90 0", "Neck 0 90 inf", "Neck \"inf\": not a finite number"),
         ("Neck 0 90 0", "Tail 0 90 0", "bone Tail is not in the skeleton"),
-        ("Neck 0 90 0", "Neck 0 90 0\nNeck 0 90 0", "bone Neck: twice in one frame"),
+        ("Neck 0 90 0", "Neck 0 90 0\nNeck 0 90 0", "bone Neck: occurs twice in one frame"),
         ("\n2\n", "\n3\n", "frame 3 follows frame 1: frames must have no gaps"),
         ("\n1\n", "\n", "\"root\": a frame's number expected here"),
     ] {

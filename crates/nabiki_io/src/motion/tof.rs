@@ -222,7 +222,7 @@ fn expect(shapes: &HashMap<String, Shape>, class: &str, known: &[(&str, &str)]) 
 fn expect_first(shapes: &HashMap<String, Shape>, class: &str, name: &str, kind: &str) -> Result<()> {
     match shapes.get(class).and_then(|shape| shape.first()) {
         Some((found_name, found)) if found_name == name && found == kind => Ok(()),
-        _ => Err(Error::new(format!("{class} does not begin with {name} {kind}: such a file is not read"))),
+        _ => Err(Error::new(format!("{class} does not begin with {name} {kind}: such files are not read"))),
     }
 }
 

@@ -44,7 +44,7 @@ impl ForceSettings {
     pub(crate) fn check_speed(&self, name: &str) -> Result<(), SettingError> {
         match self.speed {
             Some(speed) if self.vector == Vec3::ZERO => {
-                let remedy = "a wind of this speed needs a direction: give vector one";
+                let remedy = "a wind of this speed needs a direction: set vector";
                 refused(&Place::Table(name).key("speed"), speed, remedy)
             }
             speed => speed.check(&Place::Table(name).key("speed"), &Range::default()),
