@@ -333,8 +333,8 @@ fn what_a_format_cannot_hold_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     groom(folder);
-    let unit = |file: &str| format!("  lost    {file} cannot hold its unit: set hair.unit = 100 when you import it\n");
-    let up = |file: &str| format!("  lost    {file} cannot hold its up axis: set hair.up = \"+z\" when you import it\n");
+    let unit = |file: &str| format!("  lost    {file} cannot hold its unit: set hair.unit = 100 when you read it\n");
+    let up = |file: &str| format!("  lost    {file} cannot hold its up axis: set hair.up = \"+z\" when you read it\n");
     let said = succeed(folder, "convert groom.usdc groom.hair");
     let ids = "  lost    groom.hair cannot hold strand ids\n".to_owned();
     let wrote = "  wrote   groom.hair: 20 strands\n";

@@ -287,8 +287,8 @@ fn unsaid_space(options: &ConvertOptions, DeclaredSpace { unit, up }: DeclaredSp
     }
     let unit = unit.filter(|unit| unit.cm != 1.0);
     let up = up.filter(|&up| up != Axis::PlusY);
-    let unit = unit.map(|unit| format!("its unit: set hair.unit = {} when you import it", unit.cm));
-    unit.into_iter().chain(up.map(|up| format!("its up axis: set hair.up = \"{up}\" when you import it"))).collect()
+    let unit = unit.map(|unit| format!("its unit: set hair.unit = {} when you read it", unit.cm));
+    unit.into_iter().chain(up.map(|up| format!("its up axis: set hair.up = \"{up}\" when you read it"))).collect()
 }
 
 /// Unit and up axis of the input: as it says itself, or else as the options do.
