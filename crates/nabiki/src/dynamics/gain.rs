@@ -69,16 +69,16 @@ pub(super) struct SegmentShape {
     pub gain: f64,
     /// eps_i c_i.
     pub gain_in_gamma: f64,
-    /// Distance of the segment's end from the root as a part of the strand's length, 0..1; both from where the strand is
-    /// held on, and 0 before.
+    /// Distance of the segment's end from the root as a part of the strand's length, 0..1. Both count from where the
+    /// strand is held, and are 0 before.
     pub along: f64,
-    /// The same of its beginning and of its middle.
+    /// The same for its beginning and its middle.
     pub begin: f64,
     pub middle: f64,
 }
 
 impl SegmentShape {
-    /// eps_i; 1 where nothing moves the segment.
+    /// eps_i; 1 if nothing moves the segment.
     pub fn eps(&self) -> f64 {
         if self.gain > 0.0 { self.gain_in_gamma / self.gain } else { 1.0 }
     }

@@ -10,9 +10,9 @@ use crate::METHOD_VERSION;
 use crate::error::SettingError;
 use crate::random::mix;
 
-/// What such bytes begin with; the last one is the version of their layout.
+/// The first bytes of a state; the last of them is the version of the layout.
 const MAGIC: [u8; 8] = *b"nabiki.\x01";
-/// Magic, length of all, version of the method, and what [`Header`] has.
+/// Magic, total length, version of the method, and [`Header`].
 const HEADER: usize = 72;
 const CHECKSUM: usize = 8;
 
@@ -24,14 +24,14 @@ pub(super) struct Header {
     pub frame: u32,
     /// Points that are shown.
     pub points: u32,
-    /// All numbers but those of the carriers.
+    /// All numbers except those of the carriers.
     pub numbers: u64,
     pub of_carriers: u64,
-    /// What tells the hair from other hair.
+    /// Identifies the hair.
     pub hair: u64,
     /// The same of the carriers; 0 without any.
     pub carriers: u64,
-    /// What tells the bodies, gaps to which are kept, from others; 0 without any.
+    /// Identifies the bodies of the stored gaps; 0 without any.
     pub bodies: u64,
 }
 
@@ -41,7 +41,7 @@ impl Header {
         (self.carriers, self.of_carriers) == (other.carriers, other.of_carriers)
     }
 
-    /// Refuses the state of what this is not.
+    /// Refuses the state of anything else.
     pub fn check(&self, own: &Self) -> Result<(), SettingError> {
         let form = |header: &Self| if header.is_free { "the free form" } else { "the paper's form" };
         if self.is_free != own.is_free {
@@ -64,7 +64,7 @@ impl Header {
     }
 }
 
-/// What tells things from others: a number that depends on every word and on their order.
+/// A hash that depends on every word and on their order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Identity(u64);
 
@@ -73,7 +73,7 @@ impl Identity {
         Self(0)
     }
 
-    /// Two that differ in one word differ for sure, and others but once in 2^64.
+    /// Inputs that differ in one word never collide; others once in 2^64.
     pub fn word(&mut self, word: u32) {
         self.0 = mix(self.0 ^ u64::from(word));
     }
@@ -82,13 +82,13 @@ impl Identity {
         numbers.iter().for_each(|x| self.word(x.to_bits()));
     }
 
-    /// Never 0, which stands for nothing.
+    /// Never 0, which means none.
     pub fn get(self) -> u64 {
         self.0.max(1)
     }
 }
 
-/// Bytes of a state as they are put together.
+/// Writes the bytes of a state.
 pub(super) struct Writer(Vec<u8>);
 
 impl Writer {
@@ -121,14 +121,14 @@ impl Writer {
     }
 }
 
-/// Bytes of a state that are whole, as they are taken apart.
+/// Reads the bytes of a complete state.
 pub(super) struct Reader<'a> {
     pub header: Header,
     numbers: &'a [[u8; 4]],
 }
 
 impl<'a> Reader<'a> {
-    /// `own`: what they are to be the state of.
+    /// `own`: what the state must be of.
     ///
     /// # Errors
     /// Bytes that are no state, cut or altered, and the state of anything else.
