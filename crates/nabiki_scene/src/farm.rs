@@ -43,7 +43,7 @@ pub(crate) struct Plan {
 struct Names {
     scene: &'static str,
     results: &'static str,
-    /// The scene's name, where it does not stand for itself.
+    /// A placeholder for the scene's name; `None` writes the name itself.
     name: Option<&'static str>,
     /// Number of the shard.
     shard: &'static str,

@@ -59,7 +59,7 @@ impl<'a> At<'a> {
         self.scene.refusal(refused).into()
     }
 
-    /// Cancels if the result is no longer wanted; `done` is the share that is grown.
+    /// Cancels if the result is no longer wanted; `part` is the share that is done.
     pub fn still_wanted(self, part: f32) -> Result<()> {
         if (self.goes_on)(part) { Ok(()) } else { Err(Error::Cancelled) }
     }

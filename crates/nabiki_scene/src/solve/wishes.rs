@@ -317,8 +317,8 @@ impl Unknowns {
         }
     }
 
-    /// Those of the unknowns that a wish can feel, and of each vector that none can, which stays as it is, what is said of
-    /// it. `force` and `unknowns`: what [`of`](Self::of) gives; `last`: the last frame that a wish or nail is about.
+    /// The unknowns that a wish can feel, and a line about each one that none can, which stays as it is. `force` and
+    /// `unknowns`: from [`of`](Self::of); `last`: the last frame of a wish or nail.
     ///
     /// # Errors
     /// Names the first vector, where nothing is left that may change.
@@ -330,7 +330,7 @@ impl Unknowns {
         last: u32,
     ) -> Result<(Vec<Unknown>, Vec<String>), SettingError> {
         let first_felt = |unknown: Unknown| match unknown {
-            // A border that may change may bring what comes behind it nearer.
+            // A border that may change may bring the interval after it nearer.
             Unknown::Vector(j) if !unknowns.iter().any(|u| matches!(u, Unknown::Border(before) if *before < j)) => {
                 KeyframedField::new(force).map(|field| field.eased(ease).first_felt(j))
             }
@@ -415,7 +415,7 @@ impl WishEntry {
         Lock { strands: &self.strands, near: self.near, along: self.along }
     }
 
-    /// Where it should be, in the file's space. `name`: what it is called.
+    /// Its goal, in the file's space. `name`: the name of the wish.
     pub(super) fn goal(&self, name: &str) -> Result<Goal, SettingError> {
         let goals = [
             ("moved", self.moved.map(Goal::Moved)),
