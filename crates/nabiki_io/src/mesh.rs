@@ -282,7 +282,8 @@ mod tests {
             assert_eq!((mesh.triangles.len(), mesh.corner_uvs), (1, None), "{text}");
             lost
         };
-        let named = "texture coordinates: line 5: \"f 1/1 2/2 3\": \"2/2\" is not one of the 1 texture coordinates before this line";
+        let named = "texture coordinates: line 5: \"f 1/1 2/2 3\": \"2/2\" is not one of the 1 texture coordinates before \
+                     this line";
         assert_eq!(read("v 1 0 0\nv 2 3 4\nv 0 0 1\nvt 0 0\nf 1/1 2/2 3\n"), [named]);
         let word = "texture coordinates: line 4: \"vt 0 x\": texture coordinates need one to three numbers";
         assert_eq!(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 x\nvt 0 0\nf 1/1 2/2 3/2\n"), [word]);

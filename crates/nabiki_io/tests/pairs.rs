@@ -153,10 +153,7 @@ fn polylines_of_an_obj_go_into_every_format() {
         assert_eq!(through(format, &groom).strands, groom.strands, "{format}");
     }
     let refused = hair::write(&path, &groom).unwrap_err().to_string();
-    assert!(
-        refused.ends_with("cannot write hair as .obj: write .hair, .tfx, .usd, .usda, .usdc or .abc"),
-        "{refused}"
-    );
+    assert!(refused.ends_with("cannot write hair as .obj: write .hair, .tfx, .usd, .usda, .usdc or .abc"), "{refused}");
 }
 
 #[test]

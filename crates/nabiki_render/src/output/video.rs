@@ -56,8 +56,8 @@ impl Movie {
             return Err(nabiki::SettingError::new("output.movie", true, remedy).into());
         }
         if !(1.0..=240.0).contains(&frame_rate) {
-            let remedy = "must be 1 to 240 for a movie: give picture.video.frame_rate, or set output.movie = false, and \
-                 output.png_frames = true for frames as files";
+            let remedy = "must be 1 to 240 for a movie: give picture.video.frame_rate, or set output.movie = false, \
+                 and output.png_frames = true for frames as files";
             return Err(nabiki::SettingError::new("motion.frame_rate", frame_rate, remedy).into());
         }
         if !Self::takes(picture.size) {
@@ -72,7 +72,7 @@ impl Movie {
     }
 
     /// The sizes that [`takes`](Self::takes) accepts, in words.
-    pub const SIZES: &str = "a movie's sides must be at least 16 and at most 3840 x 2160 pixels";
+    pub const SIZES: &str = "a movie's sides must lie between 16 and 3840 x 2160 pixels";
 
     /// Whether a movie can have this size (pixels), in either orientation.
     pub fn takes(size: [u32; 2]) -> bool {
