@@ -30,7 +30,7 @@ settings! {
 }
 
 impl Contact {
-    /// Refuses less friction for hair that lies still than for hair that slides.
+    /// Refuses a static friction below the sliding friction.
     pub fn holds_what_lies_still(&self, at: &Place) -> Result<(), SettingError> {
         if self.static_friction >= self.friction {
             return Ok(());
@@ -138,7 +138,7 @@ impl BodyWay {
             Self::InWorld(poses) if poses.len() <= frames as usize => {
                 let length = if poses.len() == 1 { "1 frame".to_owned() } else { format!("{} frames", poses.len()) };
                 let remedy =
-                    format!("the scene goes on to frame {frames}: make motion.frames smaller, or the motion longer");
+                    format!("ends before the last frame, {frames}: lower motion.frames, or give a longer motion");
                 Err(SettingError::new(format!("{name}.motion"), length, remedy))
             }
             _ => Ok(()),
@@ -163,23 +163,23 @@ pub struct Body {
     pub contact: Contact,
 }
 
-/// Radius of the ball that does not reach into the folds of a head that [`Body::head`] fills (cm).
+/// Radius of the ball whose reach defines the folds that [`Body::head`] fills (cm).
 const FOLD_CM: f32 = 3.0;
-/// Heads that are filled, whose folds have the size of a person's: from a newborn's to half again an adult's (mean half
-/// axis, cm). A head in a wrong unit would take samples without end.
+/// Only heads of a person's size are filled, from a newborn's to one and a half times an adult's (mean half axis, cm).
+/// A head in a wrong unit would need too many samples.
 const FILLED_HEADS_CM: RangeInclusive<f32> = 5.0..=14.0;
-/// Samples of a filled head at most; a whole body has a third of that.
+/// Most samples of a filled head; a whole body has a third of that.
 const MOST_FILLED: f32 = 2e7;
-/// Steps with which the filled head is sampled (cm).
+/// Step size of the samples of a filled head (cm).
 const FILLED_CM: f32 = 0.5;
 
-/// Steps with which the distance to a body is sampled near its skin (cm): a twelfth of its thinnest side, between these.
-/// About a body thinner than the finest step distances are right from a step on, and less deep within.
+/// Step size of the distance samples near a body's skin (cm): a twelfth of its thinnest side, within these limits.
+/// Around a body thinner than the finest step, distances are right from one step away, and too shallow inside.
 const FINEST_CM: f32 = 0.05;
 const COARSEST_CM: f32 = 0.4;
-/// How far about a body it is sampled (cm): hair is kept out from the margin on, which is 5 cm at the most.
+/// Width of the sampled region around a body (cm). The margin within which hair is kept out is at most 5 cm.
 const AROUND_CM: f32 = 6.0;
-/// Samples of a body at most, 4 bytes each.
+/// Most samples of a body, 4 bytes each.
 const MOST_SAMPLES: f64 = 4e7;
 
 /// Samples the signed distance to a mesh (body space, cm). Triangles that face inward are turned.
@@ -191,20 +191,20 @@ pub fn skin_of(mut mesh: Mesh, thing: &str) -> Result<SkinDistance, SettingError
     let count = mesh.positions.len();
     let refused = |what: &str, remedy: &str| Err(SettingError::new(thing, what, remedy));
     if mesh.triangles.is_empty() || mesh.triangles.iter().flatten().any(|&v| v as usize >= count) {
-        return refused("no triangles", "give a mesh of triangles");
+        return refused("", "has no triangles, or names vertices that it lacks: give a valid mesh");
     }
     if mesh.positions.iter().any(|p| !p.is_finite()) {
-        return refused("a vertex that is not finite", "every coordinate must be a finite number");
+        return refused("", "has a vertex that is not finite: every coordinate must be a finite number");
     }
     let [low, high] = bounds(&mesh.positions);
     let side = |cm: f32| if cm < 1e5 { format!("{}", (1e3 * cm).round() / 1e3) } else { format!("{cm:.1e}") };
     let size = format!("{} cm", (high - low).to_array().map(side).join(" x "));
-    let sheet = "a sheet encloses no space, or next to none, so it has no inside: make it thicker";
+    let sheet = "a sheet encloses no space: make it thicker";
     let thickness = (high - low).min_element();
     if thickness <= 0.0 {
         return refused(&size, sheet);
     }
-    // Before what may overflow in a mesh of such a size.
+    // Must come before anything that could overflow in a mesh of this size.
     let spacing = (thickness / 12.0).clamp(FINEST_CM, COARSEST_CM);
     let samples = SkinDistance::count_samples(&mesh, low - AROUND_CM, high + AROUND_CM, spacing);
     if samples.is_nan() || samples > MOST_SAMPLES {
@@ -301,7 +301,7 @@ mod tests {
 
     #[test]
     fn bodies_of_any_size_are_sampled_or_refused() {
-        // A clip of thin metal: kept out of from the margin on.
+        // A clip of thin metal; hair is kept out of its margin.
         let clip = |thickness: f32| {
             let mut clip = box_mesh(2.0);
             clip.positions.iter_mut().for_each(|p| p.y *= 0.25 * thickness);
@@ -310,7 +310,7 @@ mod tests {
         for thickness in [0.2, 0.05, 0.02] {
             let skin = clip(thickness).unwrap();
             for at in [0.05, 0.1, 0.15] {
-                // Between samples a step apart, a distance bends at the middle of the metal and nowhere else near.
+                // Between samples a step apart, a distance bends only at the middle of the metal.
                 let read = skin.at(Vec3::new(0.37, 0.5 * thickness + at, -0.61));
                 assert!((read - at).abs() < 1e-3, "{thickness}: {read} at {at}");
             }

@@ -1,4 +1,4 @@
-//! The built-in bust, for tests. What reads it is `nabiki_groom`'s, whose head would be one of another copy of this crate here.
+//! The built-in bust, for tests. Its reader is in `nabiki_groom`, whose `Head` belongs to another copy of this crate here.
 
 #[path = "../../nabiki_groom/src/bust/head.rs"]
 mod head;

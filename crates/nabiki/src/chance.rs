@@ -16,7 +16,7 @@ fn hash(seed: u64, words: [u32; 3]) -> u64 {
 impl Chance {
     /// The random numbers of a point, from the bits of its coordinates.
     pub fn at_point(seed: u64, p: Vec3) -> Self {
-        // Adding 0 makes one zero of the two.
+        // Adding 0 turns -0 into 0.
         Self(hash(seed, (p + 0.0).to_array().map(f32::to_bits)))
     }
 

@@ -26,7 +26,7 @@ use tree::Tree;
 const FINE: usize = 4;
 /// Fine samples along one edge of a block, both ends included: a coarse cell is four fine steps long.
 pub const EDGE: usize = FINE + 1;
-/// Share by which a distance far from the skin may come out too large.
+/// Largest relative error of a distance far from the skin.
 const SLACK: f32 = 0.05;
 /// Marks a coarse cell without a block of fine samples.
 pub const COARSE: u32 = u32::MAX;
@@ -34,9 +34,9 @@ pub const COARSE: u32 = u32::MAX;
 /// Signed distance to a surface, negative inside, in the mesh's unit.
 #[derive(Clone, Debug)]
 pub struct SkinDistance {
-    /// Made when it is first asked, of samples that are there without it.
+    /// Built on first use; sampled distances do not need it.
     tree: OnceLock<Tree>,
-    /// What it is made of then.
+    /// What it is built from.
     mesh: Mesh,
     samples: Samples,
 }
@@ -66,7 +66,7 @@ impl SkinDistance {
 
         let (cx, cy) = (cells.x as usize, cells.y as usize);
         let half_diagonal = 0.5 * cell * 3.0_f32.sqrt();
-        // Cells whose every point is farther from the skin than two fine steps do without a block.
+        // Cells farther from the skin than two fine steps at every point need no block.
         let near: Vec<bool> = (0..cx * cy * cells.z as usize)
             .into_par_iter()
             .map(|c| {
@@ -86,7 +86,7 @@ impl SkinDistance {
             let corner = node(c % cx, c / cx % cy, c / (cx * cy));
             corner + spacing * Vec3::new(i as f32, j as f32, k as f32)
         };
-        // Each block's own samples; those on its three far faces belong to the next blocks.
+        // The samples of each block; those on its three far faces belong to the next blocks.
         let own: Vec<[f32; FINE * FINE * FINE]> = with_block
             .par_iter()
             .map(|&c| {
@@ -146,7 +146,7 @@ impl SkinDistance {
             let [a, b, c] = corners.map(|v| mesh.positions[v as usize].as_dvec3());
             0.5 * (b - a).cross(c - a).length()
         });
-        // A cell has a block where its middle is nearer than half a diagonal and two steps.
+        // A cell has a block if its middle is within half a diagonal and two steps.
         let layers = 2.0 * (0.5 * 3.0_f64.sqrt() + 2.0 / FINE as f64);
         coarse + layers * areas.sum::<f64>() / (cell * cell) * (EDGE * EDGE * EDGE) as f64
     }
@@ -171,7 +171,7 @@ impl SkinDistance {
         if !(q.cmpge(Vec3::ZERO).all() && q.cmplt(cells.as_vec3()).all()) {
             return self.exact(p);
         }
-        // Toward zero is down from here on, and spares the rounding that plain x86-64 has no instruction for.
+        // From here on, rounding toward zero is rounding down. Plain x86-64 has no instruction for rounding down.
         let c = q.as_uvec3();
         let t = q - c.as_vec3();
         let (i, j, k) = (c.x as usize, c.y as usize, c.z as usize);
@@ -195,7 +195,7 @@ impl SkinDistance {
     }
 }
 
-/// Interpolates between the eight samples of a cell whose first is `at`; rows and slices lie `row` and `slice` apart.
+/// Interpolates between the eight samples of a cell, the first at `at`. `row` and `slice` are the strides.
 fn trilinear(samples: &[f32], at: usize, row: usize, slice: usize, t: Vec3) -> f32 {
     let along_x = |i: usize| samples[i] + (samples[i + 1] - samples[i]) * t.x;
     let along_y = |i: usize| {

@@ -36,12 +36,12 @@ pub struct Part {
 }
 
 impl Disturbance {
-    /// Refuses disturbances that go on when the next one begins.
+    /// Refuses disturbances that are still running when the next one begins.
     fn does_not_overlap(&self, at: &Place) -> Result<(), SettingError> {
         if self.over <= self.every {
             return Ok(());
         }
-        let remedy = format!("must lie in 1..{}, the frames from one disturbance to the next", self.every);
+        let remedy = format!("must lie in 1..{}, the number of frames between disturbances", self.every);
         refused(&at.key("over"), self.over, remedy)
     }
 
@@ -64,7 +64,7 @@ impl Disturbance {
         (since < self.over && self.falls_on(falls_on)).then_some(Part { falls_on, share: share as f32 })
     }
 
-    /// The part of a turn that is there after so many of its frames: 3 t^2 - 2 t^3, which begins and ends at rest.
+    /// The part of a turn done after this many of its frames: 3 t^2 - 2 t^3, which begins and ends at rest.
     fn arrived(&self, frames: u32) -> f64 {
         let t = f64::from(frames) / f64::from(self.over);
         t * t * (3.0 - 2.0 * t)
@@ -128,8 +128,8 @@ mod tests {
             assert_eq!(first.len(), over as usize);
             // Each share is rounded to f32.
             assert!((first.iter().sum::<f32>() - 1.0).abs() < over as f32 * 6e-8, "{first:?}");
-            // Second differences of what has arrived are differences of the shares; the second derivative of
-            // 3 t^2 - 2 t^3 is at most 6 and t goes by 1 / over.
+            // Second differences of the sum are differences of the shares; the second derivative of 3 t^2 - 2 t^3 is at
+            // most 6, and t advances by 1 / over.
             let bound = (6.0 / (over * over) as f32).min(1.0) + 1e-6;
             let padded: Vec<f32> = std::iter::once(0.0).chain(first).chain([0.0]).collect();
             assert!(padded.windows(2).all(|w| (w[1] - w[0]).abs() <= bound), "over {over}: {padded:?}");

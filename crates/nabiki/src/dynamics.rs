@@ -297,7 +297,7 @@ impl<'a> FrameInput<'a> {
         Self { bodies, ..self }
     }
 
-    /// Takes points of the space of body number `b` into head space: at the end of this step of the frame, and at its beginning.
+    /// Transforms points from the space of body number `b` to head space: at the end of this step of the frame, and at its beginning.
     fn head_from_body(&self, b: usize, body: &Body, [step, steps]: [u32; 2]) -> [Affine3A; 2] {
         let (frames, heads) = ([self.frame, self.frame.saturating_sub(1)], [self.pose, self.before[0]]);
         let told = self.bodies.get(b).copied().flatten();
@@ -313,7 +313,7 @@ impl<'a> FrameInput<'a> {
     }
 }
 
-/// The part `t` of the way from one place of a rigid body to another.
+/// The pose of a rigid body at the part `t` of the way between two poses.
 fn between(from: Affine3A, to: Affine3A, t: f32) -> Affine3A {
     let [a, b] = [from, to].map(|place| Quat::from_mat3a(&place.matrix3));
     Affine3A::from_rotation_translation(a.slerp(b, t), from.translation.lerp(to.translation, t).into())

@@ -11,7 +11,7 @@ use crate::key::Key;
 pub struct SettingError {
     /// The setting's name in a scene file, such as `motion.time_step`.
     pub thing: Key,
-    /// The value.
+    /// The value; empty where there is none, and the remedy then continues the name.
     pub value: String,
     /// The allowed range, or how to fix it: a phrase that follows a colon.
     pub remedy: String,
@@ -26,6 +26,9 @@ impl SettingError {
 
 impl fmt::Display for SettingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.value.is_empty() {
+            return write!(f, "{} {}", self.thing, self.remedy);
+        }
         write!(f, "{} = {}: {}", self.thing, self.value, self.remedy)
     }
 }

@@ -94,7 +94,7 @@ mod rows {
         std::array::from_fn(|i| Vec3::new(row[0][i], row[1][i], row[2][i]))
     }
 
-    /// The forces of a row, each of which has the bits of the force at its point.
+    /// The forces of a row, each with the bits of the force at its point.
     pub fn forces(field: &dyn Field, at: [Vec3; ROW], frame: u32) -> [Vec3; ROW] {
         let mut forces = VectorRow::default();
         field.at_row(&row(at), frame, &mut forces);

@@ -196,7 +196,7 @@ impl Attributes {
             values.as_ref().map(|v| indices.iter().map(|&i| v[i]).collect())
         }
         let group = pick(&self.group, strands);
-        // A name goes with the last strand of its group; one that had none stays.
+        // A name is dropped with the last strand of its group; the name of a group without strands stays.
         let all = self.group.as_deref().unwrap_or_default();
         let left: BTreeSet<i32> = group.iter().flatten().copied().collect();
         let gone: BTreeSet<i32> = all.iter().copied().filter(|number| !left.contains(number)).collect();

@@ -15,11 +15,10 @@ use crate::mesh::Orientation;
 use crate::strands::bounds;
 use crate::{Ellipsoid, Mesh, SettingError};
 
-/// Fine samples of the distance that the box about a head may hold, were it filled with them: three times as many as that
-/// about a whole body of a person has.
+/// Most fine samples of the box around a head, if it were full: three times those of a person's whole body.
 const MOST_SAMPLES: f32 = 2e7;
 
-/// Mean half axis of the heads that can be worked with (cm).
+/// Range of the mean half axis of usable heads (cm).
 const HALF_AXES: [f32; 2] = [1e-3, 1e5];
 
 /// A head in head space (cm), with neck and shoulders if the mesh has them.
@@ -35,7 +34,7 @@ pub struct Head {
     pub openings: Vec<Opening>,
     /// Whether it is the bust of `nabiki_groom`, whose face a renderer knows. The creator of a head sets this.
     pub is_builtin: bool,
-    /// Lowest and highest corner of the mesh: beyond it nothing is inside.
+    /// Lowest and highest corner of the mesh: nothing beyond is inside.
     bounds: [Vec3; 2],
     skin: Arc<SkinDistance>,
 }
@@ -108,13 +107,13 @@ impl Head {
 
     fn assemble(mesh: Mesh, ellipsoid: Ellipsoid, orientation: Orientation) -> Self {
         let [low, high] = bounds(&mesh.positions);
-        // Hair is met near the skin; of a whole body only what is within its reach is sampled.
+        // Hair is met near the skin; of a whole body only the part within its reach is sampled.
         let finest = ellipsoid.half_axes.min_element() / 24.0;
         let reach = 4.0 * ellipsoid.half_axes.max_element();
         let margin = 0.6 * ellipsoid.half_axes.max_element();
         let low = (low - margin).max(ellipsoid.center - reach);
         let high = (high + margin).min(ellipsoid.center + reach);
-        // A flat ellipsoid on a large mesh asks for samples without end.
+        // A flat ellipsoid on a large mesh would need too many samples.
         let spacing = finest.max(((high - low).element_product() / MOST_SAMPLES).cbrt());
         let skin = Arc::new(SkinDistance::new(&mesh, low, high, spacing));
         let openings = openings::of(&mesh, &ellipsoid, &skin);
@@ -155,7 +154,7 @@ impl Head {
     }
 }
 
-/// `what` is wrong with a mesh: its size tells a wrong unit, its extent along each axis a wrong axis up.
+/// Refuses a mesh for the reason `what`. Its size shows a wrong unit, its extent along each axis a wrong up axis.
 fn refused_mesh(mesh: &Mesh, what: impl Display, remedy: &str) -> SettingError {
     let [low, high] = bounds(&mesh.positions);
     let size = high - low;
@@ -184,7 +183,7 @@ fn check_mesh(mesh: &Mesh) -> Result<(), SettingError> {
     let triangles = mesh.triangles.len();
     if let Some(uvs) = mesh.corner_uvs.as_ref().filter(|uvs| uvs.len() != triangles) {
         let value = format!("texture coordinates of {} triangles", uvs.len());
-        return Err(SettingError::new("head.mesh", value, format!("must have them for all its {triangles} or none")));
+        return Err(SettingError::new("head.mesh", value, format!("must have {triangles}, or none")));
     }
     let finite = |uvs: &[Vec2; 3]| uvs.iter().all(|uv| uv.is_finite());
     if let Some(t) = mesh.corner_uvs.iter().flatten().position(|uvs| !finite(uvs)) {
@@ -215,14 +214,14 @@ fn check_ellipsoid(ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
     Ok(())
 }
 
-/// Refuses a head of a size that cannot be worked with.
+/// Refuses a head of an unusable size.
 fn check_size(mesh: &Mesh, ellipsoid: &Ellipsoid) -> Result<(), SettingError> {
     let size = ellipsoid.half_axes.as_dvec3().element_product().cbrt() as f32;
     if (HALF_AXES[0]..=HALF_AXES[1]).contains(&size) {
         return Ok(());
     }
     let remedy = format!(
-        "its ellipsoid's half axes must lie in {} cm to {} cm, a person's are about 9: correct head.unit",
+        "its ellipsoid's half axes must lie in {} cm to {} cm (a person's are about 9 cm): correct head.unit",
         HALF_AXES[0], HALF_AXES[1]
     );
     Err(refused_mesh(mesh, format!("a head of {size:.3e} cm"), &remedy))

@@ -100,21 +100,21 @@ pub struct Own {
     pub drag: f64,
     /// How much the wind on the strand varies in strength and direction.
     pub flutter: f64,
-    /// In which rhythm: that of its swelling, and of the three axes that it turns about.
+    /// The rhythm of that variation: of its strength, and of the three axes of its turns.
     pub(crate) rhythm: [[Wave; 2]; 4],
 }
 
 /// A sine over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Wave {
-    /// Turns a frame.
+    /// Turns per frame.
     pub frequency: f32,
-    /// Where it is in frame 0, in turns.
+    /// Its phase in frame 0, in turns.
     pub phase: f32,
 }
 
 impl Wave {
-    /// The angle that it is at, within half a turn of 0 (rad).
+    /// Its angle, within half a turn of 0 (rad).
     pub fn angle(self, frame: u32) -> f64 {
         let turns = f64::from(self.frequency) * f64::from(frame) + f64::from(self.phase);
         (turns - turns.round()) * std::f64::consts::TAU
@@ -129,7 +129,7 @@ impl Default for Own {
 }
 
 impl Own {
-    /// Times the air that a flyaway takes, and the most that any strand does.
+    /// Factor on the air that a flyaway catches, which is the most that any strand does.
     const MOST_AIR: f64 = 3.0;
 
     /// Factor on the force of the field, before it flutters.
@@ -137,14 +137,14 @@ impl Own {
         self.wind * self.air
     }
 
-    /// What it makes of a force F of the field in a frame: s (F + b x F), of these s and b.
+    /// The effective force of a field's force F in a frame: s (F + b x F), with these s and b.
     pub(crate) fn wind(&self, frame: u32) -> (f64, DVec3) {
         let [swells, turns @ ..] =
             self.rhythm.map(|waves| waves.map(|wave| wave.angle(frame).sin()).iter().sum::<f64>());
         (self.share() * self.flutter.mul_add(swells, 1.0), self.flutter * DVec3::from(turns))
     }
 
-    /// The most that this multiplies a force by.
+    /// The largest factor on a force.
     pub(crate) fn most_wind(&self) -> f64 {
         let most = 2.0 * self.flutter;
         self.share() * (1.0 + most) * (3.0 * most).mul_add(most, 1.0).sqrt()
@@ -152,7 +152,7 @@ impl Own {
 }
 
 impl LockVariation {
-    /// How the strand of this lock with these random numbers differs.
+    /// How the strand with these random numbers differs, in this lock.
     pub fn of(&self, lock: &Lock, strand: Chance) -> Own {
         let [lock, strand] = [lock.chance, strand].map(|chance| chance.again(self.seed));
         let factor = |spread: f32, channel: u64| {

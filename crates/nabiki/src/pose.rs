@@ -55,7 +55,7 @@ impl Pose {
     }
 }
 
-/// Refuses poses that are none, one a frame; `name` is what the way through them is called.
+/// Refuses invalid poses, one per frame; `name` names the list in the error.
 pub(crate) fn check_poses(name: &str, poses: &[Pose]) -> Result<(), SettingError> {
     match poses.iter().position(|pose| !pose.is_valid()) {
         None => Ok(()),

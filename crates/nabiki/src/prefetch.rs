@@ -8,13 +8,13 @@
 
 #![allow(unsafe_code)]
 
-/// Brings the cache lines of some values near, as far as they are not; without effect on the program.
+/// Prefetches the cache lines of some values; no effect on the program.
 #[inline(always)]
 pub(crate) fn prefetch<T>(values: &[T]) {
     lines(values.as_ptr().cast(), size_of_val(values));
 }
 
-/// The same for the value that lies `ahead` places behind this one in an array. Beyond the array's end nothing comes of it.
+/// The same for the value `ahead` places after this one in an array. Beyond the array's end it does nothing.
 #[inline(always)]
 pub(crate) fn prefetch_ahead<T>(value: &T, ahead: usize) {
     lines(std::ptr::from_ref(value).wrapping_add(ahead).cast(), size_of::<T>());

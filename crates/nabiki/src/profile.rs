@@ -154,7 +154,7 @@ mod tests {
             assert_eq!(list.at(along), value, "{along}");
         }
         assert_eq!(list.largest(), 8.0);
-        // Of straight lines the mean is that of the middles: (3 + 5) / 2.
+        // With straight lines the mean is that of the middles: (3 + 5) / 2.
         assert_eq!(list.mean(), 4.0);
         assert_eq!(Profile::from(3.0).mean(), 3.0);
         assert_eq!(Profile::from(3.0).at(0.7), 3.0);

@@ -1,4 +1,4 @@
-//! Numbers that the readable steppers count in: plain ones, or such that carry their derivatives along.
+//! Number types of the f64 steppers: plain numbers, or numbers that carry their derivatives along.
 //!
 //! The specification of the motion is written once, over a [`Scalar`]. With `f64` it is the f64 twin; with [`Dual`] the same
 //! lines give what becomes of a small change of the settings: forward-mode differentiation. Decisions (does hair touch, does
@@ -29,18 +29,18 @@ pub(crate) trait Scalar:
     /// The number itself.
     fn value(self) -> f64;
 
-    /// Times a number that nothing changes.
+    /// Times a constant.
     fn times(self, factor: f64) -> Self;
 
     fn sqrt(self) -> Self;
 
     fn sin_cos(self) -> (Self, Self);
 
-    /// This number, and how it changes with three others by its gradient along them, which is asked for only where changes
-    /// are counted.
+    /// This number with the chain rule applied: it depends on three others, with this gradient, which is evaluated only
+    /// if derivatives are needed.
     fn known(value: f64, at: Vector<Self>, gradient: impl FnOnce() -> glam::DVec3) -> Self;
 
-    /// The same of a vector, `jacobian` having its derivatives along x, y, z for columns.
+    /// The same for a vector; the columns of `jacobian` are its derivatives along x, y and z.
     fn known_vector(value: glam::DVec3, at: Vector<Self>, jacobian: impl FnOnce() -> glam::DMat3) -> Vector<Self>;
 }
 

@@ -40,7 +40,7 @@ impl Table {
     }
 }
 
-/// Whether two texts are the same, as constants can ask.
+/// Whether two texts are equal, for constants.
 const fn is_same(mut a: &[u8], mut b: &[u8]) -> bool {
     while let ([of_a, after_a @ ..], [of_b, after_b @ ..]) = (a, b) {
         if *of_a != *of_b {
@@ -141,7 +141,7 @@ impl Range {
         }
     }
 
-    /// The same of a whole number, which is finite anyway.
+    /// The same for a whole number, which is always finite.
     fn whole_remedy(&self) -> String {
         let least = self.least.unwrap_or(0.0);
         match self.most {
@@ -209,7 +209,7 @@ pub fn plain(help: &str) -> String {
     without_links(text.trim())
 }
 
-/// Takes the brackets and targets off ``[`name`](target)``.
+/// Removes the brackets and targets of ``[`name`](target)``.
 fn without_links(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text;
@@ -217,7 +217,7 @@ fn without_links(text: &str) -> String {
         let Some((name, after)) = link.split_once("`]") else { break };
         let target = after.strip_prefix('(').and_then(|target| target.split_once(')'));
         plain.push_str(before);
-        // What no link can be called is a table's header, `[[force]]`, or a list.
+        // Brackets around text that no link can have are a table's header, `[[force]]`, or a list.
         plain.push_str(&format!("`{name}`"));
         rest = target.map_or(after, |(_, after)| after);
     }

@@ -1,4 +1,4 @@
-//! A head and hair of a few lines, for tests: what grows and the bust are `nabiki_groom`'s.
+//! A simple head and hair for tests, because growing and the bust are in `nabiki_groom`.
 
 use std::f32::consts::PI;
 
@@ -7,7 +7,7 @@ use glam::{Vec3, vec3};
 use crate::distance::{Samples, SkinDistance};
 use crate::{Ellipsoid, Head, Mesh, Strands};
 
-/// A ball of `rings` by twice as many corners, stretched to `ellipsoid`.
+/// A ball of `rings` rings with twice as many corners each, stretched to `ellipsoid`.
 pub(crate) fn egg(ellipsoid: Ellipsoid, rings: u32) -> Mesh {
     let mut mesh = Mesh::default();
     for i in 0..=rings {
@@ -26,7 +26,7 @@ pub(crate) fn egg(ellipsoid: Ellipsoid, rings: u32) -> Mesh {
     mesh
 }
 
-/// A skull on shoulders, of a person's size and alike on both sides: sampled on one of them alone, as the bust is.
+/// A skull on shoulders, of a person's size and symmetric: sampled on one side only, as the bust is.
 pub(crate) fn head() -> Head {
     let skull = Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.5, 11.0, 7.8) };
     let mut mesh = egg(skull, 40);
@@ -42,7 +42,8 @@ pub(crate) fn head() -> Head {
     Head::from_samples(mesh, skull, samples).expect("a head")
 }
 
-/// Strands of so many segments of so many cm, from a spiral of roots on the skull: they lie on it, and fall beside it.
+/// Strands of this many segments of this length (cm), from a spiral of roots on the skull: they lie on it, and fall
+/// beside it.
 pub(crate) fn hair(head: &Head, strands: usize, segments: usize, length: f32) -> Strands {
     let mut hair = Strands::default();
     for s in 0..strands {
@@ -50,13 +51,13 @@ pub(crate) fn hair(head: &Head, strands: usize, segments: usize, length: f32) ->
         let (sin, cos) = (s as f32 * 2.399_963).sin_cos();
         let out = vec3((1.0 - y * y).sqrt() * cos, y, (1.0 - y * y).sqrt() * sin);
         let mut p = head.ellipsoid.center + head.ellipsoid.half_axes * out;
-        // Combed away from the crown, and one over the other.
+        // Combed away from the crown, one over the other.
         let (normal, away) = (head.outward(p), vec3(out.x, -0.5, out.z));
         let along = (away - normal * away.dot(normal)).normalize();
         let (mut direction, mut points) = ((along + 0.35 * normal).normalize(), vec![p]);
         let gap = 0.1 + 0.6 * (s as f32 * 0.618_034).fract();
         for _ in 0..segments {
-            // It bends down, and where that would lead into the skin, along it.
+            // It bends down, and along the skin where that would lead into it.
             direction = (direction + 0.4 * Vec3::NEG_Y).normalize();
             for _ in 0..4 {
                 let end = p + length * direction;

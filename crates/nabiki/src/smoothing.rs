@@ -3,8 +3,8 @@
 /// Largest standard deviation of the bell (frames).
 pub const MOST: f32 = 240.0;
 
-/// Deviation (steps) from which on a bell is smooth enough to be widened by steps twice as long: what these would leave at a
-/// step's own wavelength it has weakened by exp(-8 pi^2).
+/// From this deviation on (steps), a bell is smooth enough to widen by steps twice as long: it has weakened what these
+/// would leave at a step's own wavelength by exp(-8 pi^2).
 const SMOOTH: f64 = 4.0;
 
 /// Smooths `values`, one per frame, with a bell of this standard deviation (frames). Beyond both ends, values are
@@ -17,14 +17,14 @@ pub fn smoothed<T: Copy>(values: &[T], deviation: f64, mean: impl Fn(T, T, T, f6
     }
     let (mut next, mirrored) = (now.clone(), Mirrored { count: values.len() as i64 });
     let (mut done, mut step) = (0.0, 1);
-    // In as many rounds as frames squared a wide bell would take hours.
+    // With one round per squared frame, a wide bell would take hours.
     while done < deviation {
         let wide = deviation.min(SMOOTH * step as f64);
-        // In steps squared. Parabolas in a row make a bell: the binomial weights of a wide enough row, (1 + x)^(2 k), whose
-        // variance is k / 2.
+        // In steps squared. A sequence of parabolas makes a bell: the binomial weights of a long one, (1 + x)^(2 k),
+        // have variance k / 2.
         let variance = (wide * wide - done * done) / (step * step) as f64;
         let rounds = (2.0 * variance).ceil().max(1.0);
-        // A part of a round keeps the deviation exact: its weights are b, 1 - 2 b, b with variance 2 b.
+        // A fractional round makes the deviation exact: its weights are b, 1 - 2 b, b with variance 2 b.
         let b = variance / rounds / 2.0;
         for _ in 0..rounds as u64 {
             for n in 0..now.len() {
@@ -38,7 +38,7 @@ pub fn smoothed<T: Copy>(values: &[T], deviation: f64, mean: impl Fn(T, T, T, f6
     now
 }
 
-/// Values that go on beyond both ends as a mirror there shows them.
+/// Values beyond both ends mirror those inside.
 struct Mirrored {
     count: i64,
 }
@@ -69,8 +69,8 @@ mod tests {
                 |k: i32| -> f64 { bell.iter().enumerate().map(|(n, w)| w * (n as f64 - half as f64).powi(k)).sum() };
             assert!((moment(0) - 1.0).abs() < 1e-9 && moment(1).abs() < 1e-9 * deviation, "{deviation}");
             assert!((moment(2) / (deviation * deviation) - 1.0).abs() < 1e-9, "{deviation}");
-            // A row of k rounds has the excess kurtosis -1 / k at the most, and misses the peak by an eighth of that; the
-            // first stage has at least twelve.
+            // k rounds have the excess kurtosis -1 / k at most, and miss the peak by an eighth of that; the first stage
+            // has at least twelve.
             let peak = 1.0 / (deviation * std::f64::consts::TAU.sqrt());
             for (n, weight) in bell.iter().enumerate() {
                 let x = (n as f64 - half as f64) / deviation;

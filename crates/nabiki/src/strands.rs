@@ -17,8 +17,8 @@ pub fn not_finite(points: &[Vec3]) -> Option<usize> {
 
 /// The corners of the bounding box. Infinite for no points; NaN is ignored.
 pub fn bounds(points: &[Vec3]) -> [Vec3; 2] {
-    // Eight boxes side by side, so that none waits for its own last point, and plain comparisons, which are one
-    // instruction where the greatest of two floats is several.
+    // Eight boxes side by side, so that none waits for its own last point. Plain comparisons are one instruction, a
+    // float maximum is several.
     const ROW: usize = 24;
     let lower = |a: f32, b: f32| if b < a { b } else { a };
     let higher = |a: f32, b: f32| if b > a { b } else { a };
@@ -44,7 +44,7 @@ pub fn check_points(name: &str, segments: usize, strands: usize) -> Result<(), S
     let points = segments.checked_add(1).and_then(|points| points.checked_mul(strands));
     match points {
         Some(points) if points <= u32::MAX as usize => Ok(()),
-        _ => Err(SettingError::new(name, segments, "more than 2^32 points in all: ask for fewer")),
+        _ => Err(SettingError::new(name, segments, "gives more than 2^32 points in all: ask for fewer")),
     }
 }
 
@@ -157,7 +157,7 @@ impl Strands {
                 let length = length_from + part * (length_to - length_from);
                 let mean = from.lerp(to, part);
                 let nearer = if part < 0.5 { from } else { to };
-                // What is left of two that all but cancel has no direction.
+                // What is left of two vectors that almost cancel has no direction.
                 let way = if mean.length_squared() > 1e-8 * length * length { mean } else { nearer };
                 p += length * way.normalize_or_zero();
                 (a, b, *point) = (*next_a, *next_b, p);
@@ -216,7 +216,7 @@ mod tests {
         // 2^32 - 1 = 65,535 x 65,537.
         assert_eq!(check_points("hair.segments", 65_536, 65_535), Ok(()));
         let refused = check_points("hair.segments", 65_537, 65_535).unwrap_err();
-        assert_eq!(refused.to_string(), "hair.segments = 65537: more than 2^32 points in all: ask for fewer");
+        assert_eq!(refused.to_string(), "hair.segments = 65537: gives more than 2^32 points in all: ask for fewer");
         assert!(check_points("hair.segments", usize::MAX, 1).is_err());
     }
 

@@ -32,13 +32,13 @@ pub fn evenly_while(roots: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) ->
     Some(chosen)
 }
 
-/// Points that are looked at between two questions whether to go on: some milliseconds.
+/// Points visited between two calls of `goes_on`: some milliseconds.
 const LOOKED_AT: usize = 1 << 20;
 
 /// Least memory per point while sorting (bytes): its cell, its index there, its position and its gap.
 pub const BYTES_A_POINT: usize = size_of::<usize>() + size_of::<u32>() + size_of::<Vec3>() + size_of::<f32>();
 
-/// The cells of a grid over points on a surface, with how far each point is from the nearest chosen one.
+/// A grid over points on a surface, with the distance of each point from the nearest chosen one.
 struct Cells {
     low: Vec3,
     size: f32,
@@ -51,10 +51,10 @@ struct Cells {
     gap: Vec<f32>,
 }
 
-/// The farthest point of one cell: by its squared distance, then the lower index.
+/// The farthest point of one cell: by squared distance, then the lower index.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Farthest {
-    /// Bits of a number that is not negative: ordered as the number is.
+    /// Bits of a nonnegative number, which sort like the number.
     gap_bits: u32,
     index: Reverse<u32>,
     slot: u32,
@@ -68,7 +68,7 @@ impl Cells {
         let extent = (high - low).max_element();
         // Points on a surface fill about n = (extent / size)^2 cells; a few points share one.
         let along = (0.6 * (points.len() as f32).sqrt()).clamp(1.0, 160.0);
-        // One cell holds them all where they lie on one spot, or so far apart that their distances overflow.
+        // A single cell holds all if they lie on one spot, or so far apart that their distances overflow.
         let measurable = extent > 0.0 && extent.is_finite();
         let size = if measurable { extent / along } else { f32::MAX };
         let across = if measurable { ((high - low) / size).floor().as_ivec3() + 1 } else { IVec3::ONE };
@@ -119,8 +119,7 @@ impl Cells {
             .max()
     }
 
-    /// Takes `slot` as chosen: no point whose gap is `widest` (squared) at most, the widest of all, is left too far. Returns how
-    /// many points it has looked at.
+    /// Marks `slot` as chosen. No remaining gap exceeds `widest` (squared). Returns the number of points visited.
     fn choose(&mut self, slot: usize, widest: f32) -> usize {
         let p = self.place[slot];
         self.gap[slot] = -1.0;
@@ -130,7 +129,7 @@ impl Cells {
         for z in from.z..=to.z {
             for y in from.y..=to.y {
                 let row = self.linear(IVec3::new(0, y, z));
-                // Cells of a row follow each other in memory.
+                // Cells of a row are contiguous in memory.
                 let slots = self.starts[row + from.x as usize] as usize..self.starts[row + to.x as usize + 1] as usize;
                 looked_at += slots.len();
                 for (gap, place) in self.gap[slots.clone()].iter_mut().zip(&self.place[slots]) {
@@ -142,7 +141,7 @@ impl Cells {
     }
 }
 
-/// The order described at [`evenly`], of finite points; none where `goes_on` says no.
+/// The order of [`evenly`], for finite points; none if `goes_on` returns false.
 fn farthest_first(points: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> Option<Vec<usize>> {
     if count == 0 {
         return Some(Vec::new());
@@ -152,7 +151,7 @@ fn farthest_first(points: &[Vec3], count: usize, goes_on: &dyn Fn() -> bool) -> 
     let first = cells.index.iter().position(|&i| i == 0).expect("there are points");
     let mut looked_at = cells.choose(first, f32::MAX);
     chosen.push(0);
-    // Gaps only shrink, so an entry that is out of date stands too high: it is met, and corrected, before it matters.
+    // Gaps only shrink, so an outdated entry is too high: it is found and corrected before it matters.
     let mut queue: BinaryHeap<Farthest> = (0..cells.starts.len() - 1).filter_map(|cell| cells.farthest(cell)).collect();
     while chosen.len() < count {
         let Some(top) = queue.pop() else { break };

@@ -85,10 +85,10 @@ fn a_state_is_refused_as_its_bytes_are() {
     let mut one = of(18, &crowded());
     run(&mut one, 1..=5);
     let before = one.state_bytes();
-    for (other, why) in [(of(9, &crowded()), "of other hair"), (of(18, &gust()), "of the paper's form")] {
+    for (other, why) in [(of(9, &crowded()), "is of other hair"), (of(18, &gust()), "is of the paper's form")] {
         let refused = one.set_state(&other).unwrap_err();
         assert_eq!(Err(refused.clone()), one.set_state_bytes(&other.state_bytes()));
-        assert!(refused.value.starts_with(why), "{refused}");
+        assert!(refused.remedy.starts_with(why), "{refused}");
         assert!(one.state_bytes() == before);
     }
 }

@@ -76,7 +76,7 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
         let other = schema.iter().filter(|h| !known(&h.name));
         let mut unread: Vec<String> = other.map(|h| format!("property {}", h.name)).collect();
         let again = self.headers.iter().enumerate().filter(|&(i, h)| self.named.get(&h.name) != Some(&i));
-        unread.extend(again.map(|(_, h)| format!("a further property of the name {}", h.name)));
+        unread.extend(again.map(|(_, h)| format!("a second property named {}", h.name)));
         let carried = schema.iter().filter(|h| OF_SCHEMA.contains(&&*h.name)).chain(parameters);
         let moving = carried.filter(|h| h.different_samples() > 1);
         let sample = self.frame;

@@ -48,10 +48,10 @@ const RESERVED: [&str; 16] = [
 fn changes_of(other: &Other) -> Vec<String> {
     if extent(other).is_none() {
         let most = u8::MAX;
-        return vec![format!("{}: {} numbers a value, and Alembic has room for 1 to {most}", other.name, other.extent)];
+        return vec![format!("{}: {} numbers per value, but Alembic allows 1 to {most}", other.name, other.extent)];
     }
     let list = (other.per == Per::Groom && !other.single && other.values.len() == other.extent)
-        .then(|| format!("{} as a list of one value: it is that value there", other.name));
+        .then(|| format!("{} as a list of one value: it becomes that value", other.name));
     // Of two numbers, texture coordinates are vectors, and of others the other way round.
     let role = match (other.role, other.extent) {
         (Role::Vector, 2) => Role::TextureCoordinate,
@@ -59,7 +59,7 @@ fn changes_of(other: &Other) -> Vec<String> {
         (role, _) => role,
     };
     let role =
-        (role != other.role).then(|| format!("what the numbers of {} stand for: they are vectors there", other.name));
+        (role != other.role).then(|| format!("the meaning of the numbers of {}: they become vectors", other.name));
     type_change(other, stored(pod(kept(other))), other.role).into_iter().chain(role).chain(list).collect()
 }
 

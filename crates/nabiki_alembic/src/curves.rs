@@ -108,7 +108,7 @@ impl<R: Read + Seek> ArchiveReader<R> {
                 match &orders[..] {
                     [_, ..] if orders.iter().all(|&order| order == 2) => Ok((Basis::Linear, Vec::new())),
                     _ if knots.is_empty() => {
-                        Err(Problem::new("are NURBS of their own orders without knots: export them as linear curves"))
+                        Err(Problem::new("are NURBS with their own orders but no knots: export them as linear curves"))
                     }
                     _ => Ok((Basis::Bspline, Knots::of_curves(&orders, counts, &knots)?)),
                 }

@@ -386,7 +386,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             lost.extend(left_out.map(|why| format!("texture coordinates of {}: {why}", self.tree.path(object))));
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
-            Some(p) => Err(Problem(format!("has a vertex at {p}"))),
+            Some(p) => Err(Problem(format!("has a vertex at {p}, which is not finite"))),
             None if mesh.triangles.is_empty() => {
                 let surfaces = self.left_out(NURBS_SURFACE, wanted);
                 Err(surfaces.refused("meshes of polygons").unwrap_or_else(|| Problem::new("has no polygons")))

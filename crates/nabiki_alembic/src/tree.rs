@@ -159,7 +159,7 @@ impl<R: Read + Seek> Tree<R> {
     pub fn new(from: R) -> Result<Self, Problem> {
         let (mut from, root) = Reader::new(from)?;
         let &[version, _, top, about, timing, metadata] = root.get(..6).unwrap_or(&[]) else {
-            return Err(Problem(format!("has {} parts at its root, where Alembic puts 6", root.len())));
+            return Err(Problem(format!("has {} parts at its root, but Alembic puts 6 there", root.len())));
         };
         let version = from.data(version)?;
         if version != [0; 4] {
@@ -208,7 +208,7 @@ impl<R: Read + Seek> Tree<R> {
         // Objects that lie in each other, or are shared by several, would be come to again and again.
         if object.place != 0 && !known.insert(object.place) {
             let name = &object.name;
-            let what = "lies in several others at once, which no program writes: export the archive again";
+            let what = "has several parents: export the archive again";
             return Err(Problem(format!("object {name:.80}: {what}")));
         }
         self.budget().keep((size_of::<Object>() + object.name.len() + 64) as u64, "objects")?;
@@ -230,7 +230,7 @@ impl<R: Read + Seek> Tree<R> {
             let name = bytes.text(length)?.into();
             let index = bytes.number(1)?;
             let metadata = self.metadata(index, 4, &mut bytes)?;
-            let &place = children.next().ok_or_else(|| Problem(format!("object {named}: a child has no place")))?;
+            let &place = children.next().ok_or_else(|| Problem(format!("object {named}: has a child without data")))?;
             let child = Object { name, metadata, place, parent: Some(parent) };
             paths += self.list(child, depth + 1, own, known)?;
         }
@@ -243,7 +243,7 @@ impl<R: Read + Seek> Tree<R> {
             Ok(bytes.text(length)?.into())
         } else {
             let entry = self.metadata.get(index);
-            entry.cloned().ok_or_else(|| Problem(format!("names metadata {index} of {}", self.metadata.len())))
+            entry.cloned().ok_or_else(|| Problem(format!("names metadata {index}, but has {}", self.metadata.len())))
         }
     }
 
@@ -379,7 +379,7 @@ fn timings(bytes: &[u8]) -> Result<Vec<Timing>, Problem> {
         let period = bytes.double()?;
         let count = bytes.number(4)?;
         if count == 0 || count > bytes.0.len() / 8 {
-            return Err(Problem(format!("claims {count} times where {} bytes are left", bytes.0.len())));
+            return Err(Problem(format!("claims {count} times, but only {} bytes are left", bytes.0.len())));
         }
         let times: Vec<f64> = (0..count).map(|_| bytes.double()).collect::<Result<_, _>>()?;
         if !(period > 0.0 && times.iter().all(|t| t.is_finite())) {

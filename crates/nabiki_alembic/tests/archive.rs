@@ -249,7 +249,7 @@ fn attributes_of_any_name_go_through() {
     let list = Other { single: false, ..other("one", Per::Groom, Role::Plain, 1, Values::Floats(vec![0.1])) };
     assert_eq!(
         nabiki_alembic::changes(std::slice::from_ref(&list)),
-        ["one as a list of one value: it is that value there"]
+        ["one as a list of one value: it becomes that value"]
     );
     let token = Other {
         stored: Stored::Token,
@@ -316,7 +316,7 @@ fn values_of_more_numbers_than_a_property_has_are_left_out_and_that_is_said() {
     // 256 and 300 are 0 and 44 in a byte.
     hair.attributes.other = vec![of("a", 0), of("b", 255), of("c", 256), of("d", 300)];
     let lost = nabiki_alembic::changes(&hair.attributes.other);
-    let line = |name: &str, extent| format!("{name}: {extent} numbers a value, and Alembic has room for 1 to 255");
+    let line = |name: &str, extent| format!("{name}: {extent} numbers per value, but Alembic allows 1 to 255");
     assert_eq!(lost, [line("a", 0), line("c", 256), line("d", 300)]);
     let file = bytes(Export::new(&hair, 24.0), |_| DAffine3::IDENTITY);
     let read = ArchiveReader::new(Cursor::new(&file)).unwrap().hair(0, None).unwrap();
@@ -364,7 +364,7 @@ fn frames_that_do_not_fit_the_groom_are_refused_and_leave_no_file() {
     let mut sink = HairArchive::create(&path, Export::new(&hair, 24.0)).unwrap();
     let mut other = strands(0);
     other.push([Vec3::ZERO, Vec3::X]);
-    assert!(sink.frame(&other, &DAffine3::IDENTITY).unwrap_err().to_string().contains("strands may not change"));
+    assert!(sink.frame(&other, &DAffine3::IDENTITY).unwrap_err().to_string().contains("strands must not change"));
     let mut bad = strands(0);
     bad.points_mut()[3].x = f32::NAN;
     assert!(sink.frame(&bad, &DAffine3::IDENTITY).unwrap_err().to_string().contains("point 3"));

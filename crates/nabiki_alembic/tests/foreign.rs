@@ -98,7 +98,7 @@ fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     let hair = file.hair(0, None).unwrap();
     assert_eq!(hair.strands.len(), 2);
     assert_eq!(hair.attributes.group, None, "the hair is of one object");
-    let said = "curves /rein, which are closed, unlike hair";
+    let said = "curves /rein, which are closed: hair is open";
     assert!(hair.attributes.unread.iter().any(|line| line == said), "{:?}", hair.attributes.unread);
     assert_eq!(file.contents().unwrap().curves, ["/mane"]);
     assert_eq!(file.prims().unwrap()[1].kind, PrimKind::Other("curves (closed)".to_owned()));

@@ -81,7 +81,7 @@ fn shutter_samples_are_read_at_whole_frames_whatever_they_move() {
             let mut archive = archive(times, FRAME, 2, hair_moves);
             check(&mut archive, wanted, 24.0, hair_moves);
             let unread = archive.hair(0, None).unwrap().attributes.unread;
-            assert_eq!(unread, [format!("{between} samples between frames, of which there are 24 a second")]);
+            assert_eq!(unread, [format!("{between} samples between frames, at 24 frames a second")]);
             let motion = archive.motion("head").unwrap();
             let sampled: Vec<f64> = motion.iter().map(|placed| placed.time / FRAME).collect();
             assert!(hair_moves || sampled.iter().zip(times).all(|(a, b)| (a - b).abs() < 1e-12), "{sampled:?}");
@@ -112,7 +112,7 @@ fn samples_within_a_frame_of_the_archives_own_rate_are_of_its_shutter() {
         check(&mut archive, &[1.0, 2.0, 3.0], 24.0, true);
         let between = times.len() - 3;
         let unread = archive.hair(0, None).unwrap().attributes.unread;
-        assert_eq!(unread, [format!("{between} samples between frames, of which there are 24 a second")]);
+        assert_eq!(unread, [format!("{between} samples between frames, at 24 frames a second")]);
     }
 }
 

@@ -97,7 +97,7 @@ fn knots_that_make_no_curve_are_refused_with_curve_and_way_out() {
     assert_eq!(with(4, f32::NAN), line("knot 4 is NaN: must be finite"));
     assert_eq!(with(5, f32::INFINITY), line("knot 5 is inf: must be finite"));
     assert_eq!(with(5, 0.5), line("knot 5 is 0.5, less than 1 before it"));
-    assert_eq!(with(4, 0.0), line("breaks at knot 0, which stands more than 3 times"));
+    assert_eq!(with(4, 0.0), line("breaks at knot 0, which occurs more than 3 times"));
 }
 
 #[test]
@@ -147,9 +147,9 @@ fn what_does_not_show_is_said_of_curves_and_left_out_of_meshes() {
     assert_eq!(hair.strands.len(), 6);
     // The nearest object that says either has it for all below.
     let said = [
-        "visibility of /off: it is \"hidden\" there",
-        "visibility of /off/inherits_at_times: it is \"hidden\" there at some frames",
-        "visibility of /at_times: it is \"hidden\" there at some frames",
+        "visibility of /off, which is \"hidden\"",
+        "visibility of /off/inherits_at_times, which is \"hidden\" at some frames",
+        "visibility of /at_times, which is \"hidden\" at some frames",
     ];
     assert_eq!(hair.attributes.unread, said);
     assert_eq!(file.mesh().unwrap().positions[1], Vec3::X);
@@ -159,7 +159,7 @@ fn what_does_not_show_is_said_of_curves_and_left_out_of_meshes() {
     // Alone it is the head.
     let alone = |path: &str| path == "/off/ghost";
     assert_eq!(file.meshes(&alone).unwrap().positions[0], 5.0 * Vec3::X);
-    assert_eq!(file.meshes_unread(&alone).unwrap(), ["visibility of /off: it is \"hidden\" there"]);
+    assert_eq!(file.meshes_unread(&alone).unwrap(), ["visibility of /off, which is \"hidden\""]);
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn a_subdivision_surface_is_the_mesh_of_its_cage() {
     assert_eq!(skin.triangles, eye.triangles);
     assert_eq!(skin.positions[0], 10.0 * Vec3::X);
     assert!(skin.positions.iter().zip(&eye.positions).all(|(a, b)| *a + 5.0 * Vec3::X == *b));
-    assert_eq!(file.mesh_unread().unwrap(), ["holeIndices of /head/skin: the 1 faces that they take out are kept"]);
+    assert_eq!(file.mesh_unread().unwrap(), ["holeIndices of /head/skin: the 1 faces they remove are kept"]);
     let motion = file.motion("head").unwrap();
     assert_eq!((motion.len(), motion[2].position), (3, 12.0 * DVec3::X));
 }

@@ -71,7 +71,7 @@ fn strands_without_points_are_refused_and_not_measured() {
     let sound = fs::read(folder.join("m.nabiki")).unwrap();
     // The starts of strands 0 and 1; the first has 19 points or fewer.
     for (start, why) in [
-        (0, "strand 0: starts at point 0 and the next at 0: a strand has 2 points"),
+        (0, "strand 0: starts at point 0 and the next at 0: a strand needs at least 2 points"),
         (2, "header: the file is damaged, its checksum does not match"),
     ] {
         let mut bytes = sound.clone();

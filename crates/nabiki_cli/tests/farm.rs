@@ -369,7 +369,10 @@ fn frames_that_make_no_movie_are_refused() {
         ("f0.png none.png -o m.mp4", "none.png: there is no such file or folder"),
         ("f0.png empty.png -o m.mp4", "empty.png: no PNG file with a number"),
         ("f0.png none/f1.png -o m.mp4", "f1.png: "),
-        ("wide/gust_frames -o m.mp4", "0000.png: 3842 x 16 pixels; a movie's sides must lie within 16 and 3840 x 2160"),
+        (
+            "wide/gust_frames -o m.mp4",
+            "0000.png: 3842 x 16 pixels; a movie's sides must lie between 16 and 3840 x 2160",
+        ),
         ("a/gust_frames -o m.avi", "a movie ends in .mp4"),
         ("a/gust_frames -o none/m.mp4", "there is no folder none"),
         ("a/gust_frames -o m.mp4 WHOLE --set motion.frames=9", "frames 5 to 9 are missing"),

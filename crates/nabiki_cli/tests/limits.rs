@@ -37,13 +37,13 @@ fn work_that_takes_more_memory_than_there_is_is_refused_before_it_begins() {
     // 380 bytes for each root, however few strands are shown.
     let line = simulate(&["hair.strands=800000000", "hair.segments=1", "hair.segment_length=18"]);
     assert!(
-        line.contains("hair.strands = 800000000: to spread its roots needs at least 283.1 GiB of memory"),
+        line.contains("hair.strands = 800000000: spreading their roots needs at least 283.1 GiB of memory"),
         "{line}"
     );
-    assert!(line.contains("GiB are available: grow less"), "{line}");
+    assert!(line.contains("GiB are available: grow fewer"), "{line}");
     // Roots fit, and what grows from them does not.
     let line = simulate(&["hair.strands=500000", "hair.segments=4000", "hair.segment_length=0.0045"]);
-    assert!(line.contains("hair.strands = 500000: to grow 500000 of them needs "), "{line}");
+    assert!(line.contains("hair.strands = 500000: growing 500000 of them needs "), "{line}");
     let draw =
         ["render", GUST, "--frame", "0", "--strands", "20", "--threads", "2", "--set", "picture.size=[16384,16384]"];
     let line = refused(&folder, limited(&folder, &format!("-v {}", 2 * GIB), &draw));

@@ -160,7 +160,7 @@ fn moving_hair_goes_on_moving_in_every_format_that_can_hold_it() {
         assert!(said.contains("4 frames of 40 strands") && !said.contains("motion"), "{words}: {said}");
     }
     let still = succeed(&folder, "convert a.usdc e.hair");
-    assert!(still.contains("cannot hold motion: it is frame 0 of the 4"), "{still}");
+    assert!(still.contains("cannot hold motion: only frame 0 of the 4"), "{still}");
     for frame in [0, 3] {
         for name in ["a.usdc", "d.usdc"] {
             succeed(&folder, &format!("convert {name} {name}.hair --frame {frame}"));

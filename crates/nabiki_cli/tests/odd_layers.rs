@@ -39,7 +39,7 @@ fn a_layer_does_not_lie_over_curves_of_which_some_are_no_strands() {
     let hair = curves("int[] curveVertexCounts = [1, 2]\n point3f[] points = [(9, 3, 0), (9, 1, 0), (12, 1, 0)]");
     let folder = folder(&hair);
     let said = succeed(&folder, "simulate scene.toml -o m.nabiki");
-    assert!(said.contains("  ignored in groom.usda: 1 curves of fewer than two points\n"), "{said}");
+    assert!(said.contains("  ignored in groom.usda: 1 curves with fewer than two points\n"), "{said}");
     for words in ["convert m.nabiki l.usda", "simulate scene.toml -o n.nabiki --export l.usda"] {
         let line = refuse(&folder, &format!("{words} --export-layer /h"));
         assert!(line.contains("l.usda: a layer would not fit the groom: 2 of its 3 points are used"), "{line}");

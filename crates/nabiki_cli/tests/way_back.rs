@@ -333,14 +333,14 @@ fn what_a_format_cannot_hold_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     groom(folder);
-    let unit = |file: &str| format!("  lost    {file} cannot hold its unit: give hair.unit = 100 where it is read\n");
-    let up = |file: &str| format!("  lost    {file} cannot hold its up axis: give hair.up = \"+z\" where it is read\n");
+    let unit = |file: &str| format!("  lost    {file} cannot hold its unit: set hair.unit = 100 when you read it\n");
+    let up = |file: &str| format!("  lost    {file} cannot hold its up axis: set hair.up = \"+z\" when you read it\n");
     let said = succeed(folder, "convert groom.usdc groom.hair");
     let ids = "  lost    groom.hair cannot hold strand ids\n".to_owned();
     let wrote = "  wrote   groom.hair: 20 strands\n";
     assert_eq!(said, ids + &unit("groom.hair") + &up("groom.hair") + wrote);
     let said = succeed(folder, "convert groom.usdc groom.tfx");
-    let points = "groom.tfx cannot hold 5 points a strand as TressFX itself wants them: 4, 8, 16, 32 or 64";
+    let points = "groom.tfx cannot hold 5 points per strand: TressFX itself loads 4, 8, 16, 32 or 64";
     assert!(said.contains(points) && said.contains("strand ids"), "{said}");
     let said = succeed(folder, "convert groom.usdc groom.abc");
     assert_eq!(said, unit("groom.abc") + &up("groom.abc") + "  wrote   groom.abc: 20 strands\n");
@@ -350,7 +350,7 @@ fn what_a_format_cannot_hold_is_said() {
     let said = succeed(folder, "convert m.abc still.usda --unit m --frame 3");
     assert_eq!(
         said,
-        "  lost    still.usda cannot hold motion: it is frame 3 of the 4 in m.abc\n  wrote   still.usda: 20 strands\n"
+        "  lost    still.usda cannot hold motion: only frame 3 of the 4 in m.abc is kept\n  wrote   still.usda: 20 strands\n"
     );
     let said = succeed(folder, "convert m.nabiki m2.abc");
     assert_eq!(said, unit("m2.abc") + &up("m2.abc") + "  wrote   m2.abc: 4 frames of 20 strands\n");

@@ -153,7 +153,7 @@ pub fn type_change(other: &Other, stored: Stored, role: Role) -> Option<String> 
         return Some(format!("the type of {name}: {} becomes {}", type_name(other.stored), type_name(stored)));
     }
     (role != other.role)
-        .then(|| format!("what the numbers of {name} stand for: {} become plain ones", plural(other.role)))
+        .then(|| format!("the meaning of the numbers of {name}: {} become plain numbers", plural(other.role)))
 }
 
 /// Bytes of a name that is written; readers refuse much longer ones.
@@ -193,7 +193,7 @@ pub fn unique_names(others: &[Other], valid: impl Fn(&str) -> String, reserved: 
 pub fn renamed(from: &str, to: &str) -> String {
     // Of a name that is as long as a page its beginning tells enough.
     let shown = |name: &str| if name.chars().count() > 80 { format!("{name:.80}...") } else { name.to_owned() };
-    format!("the name {:?}: it is {} there", shown(from), shown(to))
+    format!("the name {:?}: it becomes {}", shown(from), shown(to))
 }
 
 /// The name of a type of numbers or words.
@@ -464,8 +464,8 @@ impl<F: NamedValues> Search<'_, F> {
         if changing > 0 && names::WRITTEN.contains(&name) {
             let curves = self.lines.shape.counts.len();
             let line =
-                format!("{name} from point to point: it changes along {changing} of {curves} curves, and a strand has");
-            self.unread.push(line + " that of its root alone");
+                format!("{name} from point to point: it changes along {changing} of {curves} curves, but a strand");
+            self.unread.push(line + " keeps only the value at its root");
         }
         self.at_roots(name, values)
     }

@@ -121,8 +121,8 @@ impl Budget {
         }
         let [most, file] = [most, self.file].map(Size);
         Err(Problem(format!(
-            "needs more than {most} to be read over and over, which is the most for a file of {file}: bake the motion, or export it \
-             again in several files"
+            "needs more than {most} to be read repeatedly, the most for a file of {file}: bake the motion, or export it in \
+             several files"
         )))
     }
 
@@ -133,8 +133,8 @@ impl Budget {
         }
         let [all, most, file] = [all, self.most(), self.file].map(Size);
         Err(Problem(format!(
-            "with its {what} it takes {all} of memory, and a file of {file} may take {most} in all: is it damaged? \
-             If it is not, export it again in several files"
+            "needs {all} of memory with its {what}, but a file of {file} may use at most {most}: is it damaged? \
+             If not, export it in several files"
         )))
     }
 }
@@ -174,8 +174,8 @@ mod tests {
         let refused = budget.take(u64::MAX, "paths of prims").unwrap_err().to_string();
         assert_eq!(
             refused,
-            "with its paths of prims it takes 18446744 TB of memory, and a file of 1.0 MB may take 50 MB in all: is it damaged? \
-             If it is not, export it again in several files"
+            "needs 18446744 TB of memory with its paths of prims, but a file of 1.0 MB may use at most 50 MB: is it damaged? \
+             If not, export it in several files"
         );
     }
 

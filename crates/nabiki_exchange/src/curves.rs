@@ -67,15 +67,11 @@ pub fn checked_counts(counts: &[i64], total: usize) -> Result<Vec<usize>, Proble
     let mut sum = 0usize;
     let mut checked = Vec::with_capacity(counts.len());
     for &count in counts {
-        let count = usize::try_from(count).map_err(|_| Problem(format!("a count of {count}")))?;
+        let count = usize::try_from(count).map_err(|_| Problem(format!("has a negative count, {count}")))?;
         sum = sum.saturating_add(count);
         checked.push(count);
     }
-    if sum == total {
-        Ok(checked)
-    } else {
-        Err(Problem(format!("counts that add up to {sum} where there are {total}")))
-    }
+    if sum == total { Ok(checked) } else { Err(Problem(format!("its counts add up to {sum} instead of {total}"))) }
 }
 
 /// Steps into which a cubic is cut to measure its length.
@@ -111,7 +107,7 @@ impl Shape {
             return Err(Problem(format!("point {i} is {}: {way_out}", points[i])));
         }
         if segments == Some(0) {
-            return Err(Problem::new("0 segments: a strand needs one at least"));
+            return Err(Problem::new("0 segments: a strand needs at least one"));
         }
         if let Some(segments) = segments {
             check_points("segments", segments, self.counts.len()).map_err(|refused| Problem(refused.to_string()))?;
@@ -120,9 +116,9 @@ impl Shape {
             let pieces = match knots.get(curve) {
                 _ if count < 2 => Ok(0),
                 Some(knots) if knots.control_points() == count => Ok(knots.pieces()),
-                Some(knots) => Err(format!("{count} control points, and knots for {}", knots.control_points())),
+                Some(knots) => Err(format!("{count} control points, but knots for {}", knots.control_points())),
                 None if knots.is_empty() => self.pieces(count),
-                None => Err(format!("has no knots: there are those of {} curves", knots.len())),
+                None => Err(format!("has no knots: the file has knots for only {} curves", knots.len())),
             };
             pieces.map_err(|e| Problem(format!("curve {curve}: {e}")))
         });
@@ -461,7 +457,7 @@ mod tests {
         let lines = Shape { counts: vec![2; 3], basis: Basis::Linear, pinned: false };
         // 2^32 - 1 points are three times a third; each strand has a point more than segments.
         let refused = lines.walk(vec![Vec3::X; 6], Some(u32::MAX as usize / 3)).unwrap_err();
-        assert_eq!(refused.0, "segments = 1431655765: more than 2^32 points in all: ask for fewer");
+        assert_eq!(refused.0, "segments = 1431655765: gives more than 2^32 points in all: ask for fewer");
     }
 
     #[test]

@@ -99,7 +99,7 @@ impl<'a> Export<'a> {
         }
         if let Some(s) = self.hair.strands.iter().position(|strand| strand.len() < 2) {
             let n = self.hair.strands.strand(s).len();
-            return invalid(format!("strand {s} has {n} points: a curve has two at least; leave it out"));
+            return invalid(format!("strand {s} has {n} points: a curve needs at least two; leave it out"));
         }
         if !(self.frame_rate.is_finite() && self.frame_rate > 0.0) {
             return invalid(format!("frame rate {}: must be a finite number above 0", self.frame_rate));
@@ -122,7 +122,7 @@ impl<'a> Export<'a> {
         let invalid = |problem: String| Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
         if strands.starts() != self.hair.strands.starts() {
             let (found, expected) = (strands.points().len(), self.hair.strands.points().len());
-            return invalid(format!("a frame of {found} points for a groom of {expected}: strands may not change"));
+            return invalid(format!("{found} points in the frame, {expected} in the groom: strands must not change"));
         }
         let points = if self.file_from_head == DAffine3::IDENTITY && self.course == Course::LINEAR {
             strands.points()

@@ -64,7 +64,7 @@ impl Frames {
     pub fn unread(&self, second: f64) -> Vec<String> {
         let between = (self.between > 0).then(|| {
             let samples = if self.between == 1 { "1 sample".to_owned() } else { format!("{} samples", self.between) };
-            format!("{samples} between frames, of which there are {} a second", self.rate(second))
+            format!("{samples} between frames, at {} frames a second", self.rate(second))
         });
         let first = self.times.first().map_or(0.0, |first| first / self.step);
         let off = (self.times.len() > 1 && !self.are_whole()).then(|| {

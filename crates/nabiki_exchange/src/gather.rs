@@ -83,11 +83,11 @@ impl Gathered {
         let repeated = all.hair.attributes.repeated_ids();
         if repeated > 0 {
             let have = if repeated == 1 { "strand has" } else { "strands have" };
-            let line = format!("unique strand ids: as read, {repeated} {have} the id of another");
+            let line = format!("unique strand ids: {repeated} {have} the id of another");
             all.hair.attributes.unread.push(line);
         }
         if self.short > 0 {
-            all.hair.attributes.unread.push(format!("{} curves of fewer than two points", self.short));
+            all.hair.attributes.unread.push(format!("{} curves with fewer than two points", self.short));
         }
         check_extent(all.hair.strands.points())?;
         Ok(all)
@@ -105,9 +105,8 @@ impl Closed {
     pub fn check(&self, open: usize) -> Result<(), Problem> {
         match self.0.first().filter(|_| open == 0) {
             Some(path) => {
-                let line = format!(
-                    "curves {path}: are closed, which hair cannot be: export them as open (nonperiodic) curves"
-                );
+                let line =
+                    format!("curves {path}: are closed, but hair is open: export them as open (nonperiodic) curves");
                 Err(Problem(line))
             }
             None => Ok(()),
@@ -116,7 +115,7 @@ impl Closed {
 
     /// Phrases that report that they are left out.
     pub fn unread(&self) -> impl Iterator<Item = String> {
-        self.0.iter().map(|path| format!("curves {path}, which are closed, unlike hair"))
+        self.0.iter().map(|path| format!("curves {path}, which are closed: hair is open"))
     }
 }
 
@@ -147,7 +146,7 @@ fn join(all: &mut Hair, part: Hair, dropped: &mut BTreeSet<String>, said: &mut H
         let stored = mine.stored;
         let Err(why) = append(mine, others.remove(&mine.name)) else {
             if mine.stored != stored {
-                retyped.push(format!("the types of {}, which its objects store in several", mine.name));
+                retyped.push(format!("the types of {}: its objects use different ones", mine.name));
             }
             return true;
         };
@@ -190,8 +189,8 @@ fn append(mine: &mut Other, theirs: Option<Other>) -> Result<(), &'static str> {
     let differs = mine.per == Per::Groom && mine.stored == theirs.stored && mine.values != theirs.values;
     match same {
         true if mine.append(theirs) => Ok(()),
-        true if differs => Err("of which its objects have several values"),
-        _ => Err("which its objects have in several kinds"),
+        true if differs => Err("for which its objects have different values"),
+        _ => Err("which its objects store in different ways"),
     }
 }
 
@@ -234,10 +233,10 @@ mod tests {
         assert_eq!(
             unread,
             [
-                "con, of which its objects have several values",
-                "mix, which its objects have in several kinds",
+                "con, for which its objects have different values",
+                "mix, which its objects store in different ways",
                 "own, which only some of its objects have",
-                "per, which its objects have in several kinds",
+                "per, which its objects store in different ways",
             ]
         );
     }
@@ -252,7 +251,7 @@ mod tests {
         }
         let found = all.hair().unwrap().hair.attributes;
         assert_eq!(found.id, Some(vec![3, 3, 4]));
-        assert_eq!(found.unread, ["unique strand ids: as read, 1 strand has the id of another"]);
+        assert_eq!(found.unread, ["unique strand ids: 1 strand has the id of another"]);
     }
 
     #[test]

@@ -58,7 +58,7 @@ pub fn check_extent(points: &[Vec3]) -> Result<(), Problem> {
     }
     let [low, high] = bounds(points);
     if !points.is_empty() && !(high - low).length().is_finite() {
-        return Err(Problem(format!("its curves reach from {low} to {high}: their size is no finite number")));
+        return Err(Problem(format!("its curves reach from {low} to {high}: their size is not finite")));
     }
     Ok(())
 }

@@ -27,7 +27,7 @@ impl Knots {
     /// the curve.
     pub fn new(order: usize, control_points: usize, knots: &[f64]) -> Result<Self, Problem> {
         if !(2..=4).contains(&order) {
-            return Err(Problem(format!("has order {order}, where 2 to 4 are read")));
+            return Err(Problem(format!("has order {order}, but only 2 to 4 are read")));
         }
         if control_points < order {
             return Err(Problem(format!("{control_points} control points do not make a B-spline of order {order}")));
@@ -53,16 +53,16 @@ impl Knots {
         let (first, last) = (inner[0], inner[inner.len() - 1]);
         let same = (last - first) * SAME;
         if !(same.is_finite() && same > 0.0) {
-            return Err(Problem(format!("knots from {first} to {last} leave nothing of it")));
+            return Err(Problem(format!("its knots from {first} to {last} leave no curve")));
         }
         let degree = order - 1;
         if let Some(i) = inner.windows(order).position(|these| these[degree] - these[0] <= same) {
-            return Err(Problem(format!("breaks at knot {}, which stands more than {degree} times", inner[i])));
+            return Err(Problem(format!("breaks at knot {}, which occurs more than {degree} times", inner[i])));
         }
         let has_length = |&i: &usize| inner[degree + i] - inner[degree + i - 1] > same;
         let spans: Vec<usize> = (0..=control_points - order).filter(has_length).collect();
         if spans.is_empty() {
-            return Err(Problem(format!("knots from {first} to {last} leave nothing of it")));
+            return Err(Problem(format!("its knots from {first} to {last} leave no curve")));
         }
         Ok(Self { degree, inner: inner.to_vec(), spans })
     }
@@ -239,8 +239,8 @@ mod tests {
             let clamped = Knots::new(4, 4, &[0.0, 0.0, 0.0, 1.0, 1.0, 1.0]).unwrap();
             splines(counts).walk_by(vec![clamped], points, None).unwrap_err().0
         };
-        assert_eq!(refused(vec![5]), "curve 0: 5 control points, and knots for 4");
-        assert_eq!(refused(vec![4, 3]), "curve 1: has no knots: there are those of 1 curves");
+        assert_eq!(refused(vec![5]), "curve 0: 5 control points, but knots for 4");
+        assert_eq!(refused(vec![4, 3]), "curve 1: has no knots: the file has knots for only 1 curves");
     }
 
     #[test]
@@ -293,13 +293,13 @@ mod tests {
             (4, 4, with(5, f64::INFINITY), "knot 5 is inf: must be finite"),
             (4, 4, with(3, -1.0), "knot 3 is -1, less than 0 before it"),
             (4, 4, clamped[1..].to_vec(), "5 knots for 4 control points of order 4, which need 8 or 6"),
-            (4, 4, vec![2.0; 8], "knots from 2 to 2 leave nothing of it"),
-            (4, 4, vec![-f64::MAX, -1.0, 0.0, 1.0, 2.0, f64::MAX], "leave nothing of it"),
-            (4, 4, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0], "breaks at knot 0, which stands more than 3 times"),
+            (4, 4, vec![2.0; 8], "its knots from 2 to 2 leave no curve"),
+            (4, 4, vec![-f64::MAX, -1.0, 0.0, 1.0, 2.0, f64::MAX], "leave no curve"),
+            (4, 4, vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0], "breaks at knot 0, which occurs more than 3 times"),
             (4, 3, clamped.to_vec(), "3 control points do not make a B-spline of order 4"),
-            (5, 4, clamped.to_vec(), "has order 5, where 2 to 4 are read"),
-            (0, 4, Vec::new(), "has order 0, where 2 to 4 are read"),
-            (1, 4, Vec::new(), "has order 1, where 2 to 4 are read"),
+            (5, 4, clamped.to_vec(), "has order 5, but only 2 to 4 are read"),
+            (0, 4, Vec::new(), "has order 0, but only 2 to 4 are read"),
+            (1, 4, Vec::new(), "has order 1, but only 2 to 4 are read"),
         ] {
             let refused = Knots::new(order, points, &knots).unwrap_err().0;
             assert!(refused.contains(why), "{refused}");

@@ -41,7 +41,7 @@ impl Uvs {
             return Some(format!("{} for {expected} {what}", all.len()));
         }
         let odd = all.iter().position(|uv| !(uv[0].is_finite() && uv[1].is_finite()))?;
-        Some(format!("those of number {odd} are ({}, {}), which are not finite", all[odd][0], all[odd][1]))
+        Some(format!("number {odd} is ({}, {}), which is not finite", all[odd][0], all[odd][1]))
     }
 
     /// Those of each corner.
@@ -79,7 +79,7 @@ pub fn add_polygons(
         first += count;
         let corner = |&c: &i64| match usize::try_from(c) {
             Ok(i) if i < own => Ok((base + i) as u32),
-            _ => Err(Problem(format!("corner {c} of {own} vertices"))),
+            _ => Err(Problem(format!("a corner names vertex {c}, but there are {own} vertices"))),
         };
         let polygon = corners[these.clone()].iter().map(corner).collect::<Result<Vec<u32>, _>>()?;
         for k in 2..count {
@@ -158,7 +158,7 @@ mod tests {
         for (uvs, why) in [
             (Uvs::OfVertices([[0.0; 2]; 2].to_vec()), "2 for 3 vertices"),
             (Uvs::OfCorners([[0.0; 2]; 4].to_vec()), "4 for 3 corners"),
-            (Uvs::OfCorners([[0.0, f32::NAN]; 3].to_vec()), "those of number 0 are (0, NaN), which are not finite"),
+            (Uvs::OfCorners([[0.0, f32::NAN]; 3].to_vec()), "number 0 is (0, NaN), which is not finite"),
         ] {
             let (mut mesh, wrong) = (Mesh::default(), Polygons { uvs: Some(uvs), ..bare });
             let left_out = add_polygons(&mut mesh, wrong, &Affine3A::IDENTITY).unwrap();

@@ -17,7 +17,7 @@ impl Hidden {
     /// A phrase that reports that the object is read nevertheless.
     pub fn kept(&self) -> String {
         let Self { by, name, value, at_times } = self;
-        format!("{name} of {by}: it is \"{value}\" there{}", if *at_times { " at some frames" } else { "" })
+        format!("{name} of {by}, which is \"{value}\"{}", if *at_times { " at some frames" } else { "" })
     }
 
     /// The same as a reason.
@@ -58,5 +58,5 @@ pub fn those_that_show<T>(all: Vec<Candidate<T>>) -> (Vec<T>, Vec<String>) {
 
 /// The message about faces of a mesh that are marked as holes.
 pub fn kept_holes(path: &str, holes: usize) -> Option<String> {
-    (holes > 0).then(|| format!("holeIndices of {path}: the {holes} faces that they take out are kept"))
+    (holes > 0).then(|| format!("holeIndices of {path}: the {holes} faces they remove are kept"))
 }

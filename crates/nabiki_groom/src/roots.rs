@@ -53,7 +53,7 @@ pub fn check_count(count: usize) -> Result<(), SettingError> {
     if count <= MOST {
         return Ok(());
     }
-    Err(SettingError::new("hair.strands", count, format!("must be at most {MOST}: grow less")))
+    Err(SettingError::new("hair.strands", count, format!("must be at most {MOST}: grow fewer")))
 }
 
 /// The least memory (bytes) for spreading this many roots, however few of them are wanted.
@@ -100,7 +100,7 @@ pub fn spread_first_while(
 ) -> Result<Option<Vec<Root>>, SettingError> {
     hairline.check()?;
     check_count(count)?;
-    let bald = || SettingError::new("hair.hairline", "no scalp", "leaves almost no room for hair: widen it");
+    let bald = || SettingError::new("hair.hairline", "", "leaves no scalp for hair: widen it");
     let scalp = Scalp::new(head, hairline);
     if scalp.upto.is_empty() {
         return Err(bald());

@@ -272,8 +272,8 @@ impl Curl {
             return Ok(());
         }
         let remedy = format!(
-            "must be at most {longest:.3}: the tightest turn of hair.style.curl takes {turn:.3} cm of hair, and no fewer than {} \
-             segments show its shape",
+            "must be at most {longest:.3}: the tightest turn of hair.style.curl takes {turn:.3} cm of hair and needs at \
+             least {} segments",
             Self::SEGMENTS_A_TURN
         );
         Err(SettingError::new("hair.segment_length", segment_length, remedy))
@@ -310,7 +310,7 @@ impl Ponytail {
             return Ok(());
         }
         let remedy = format!(
-            "the band reaches into the head: its middle is {distance:.2} cm from the skin and must be at least its \
+            "the band reaches into the head: its middle is {distance:.2} cm from the skin, but must be at least its \
              radius, {radius} cm"
         );
         Err(SettingError::new("hair.style.ponytail.at", self.at, remedy))

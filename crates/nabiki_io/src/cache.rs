@@ -154,7 +154,7 @@ impl Writer {
     /// Appends one frame: all `points` (head space, cm) and the pose of the head.
     pub fn push(&mut self, head: &Pose, points: &[Vec3]) -> Result<()> {
         if points.len() != self.points {
-            let what = format!("frame {}: {} points, the cache is of {}", self.frame(), points.len(), self.points);
+            let what = format!("frame {}: {} points, but the cache has {}", self.frame(), points.len(), self.points);
             return Err(Error::new(what).in_file(&self.target));
         }
         self.check(points)?;
@@ -167,13 +167,14 @@ impl Writer {
         let refuse = |what: String| Err(Error::new(what).in_file(&self.target));
         let frame = self.frame();
         if frame == self.frames {
-            return refuse(format!("frame {frame}: the cache is of {frame} frames"));
+            return refuse(format!("frame {frame}: the cache has room for {frame} frames"));
         }
         if let Some((_, given)) = self.open {
-            return refuse(format!("frame {frame}: {given} points, the cache is of {}", self.points));
+            return refuse(format!("frame {frame}: {given} points, but the cache has {}", self.points));
         }
         if !head.is_valid() {
-            return refuse(format!("frame {frame}: the head is at {}, turned {}", head.position_cm, head.rotation));
+            let Pose { position_cm, rotation } = head;
+            return refuse(format!("frame {frame}: the head is at {position_cm}, turned {rotation}: not a pose"));
         }
         self.sum = Sum::default();
         let mut out = Summing { out: &mut self.file, sum: &mut self.sum };
@@ -187,10 +188,10 @@ impl Writer {
     /// Writes the next points of the current frame (head space, cm).
     pub fn part(&mut self, points: &[Vec3]) -> Result<()> {
         let Some((head, given)) = self.open.map(|(head, given)| (head, given + points.len())) else {
-            return Err(Error::new("points of no frame").in_file(&self.target));
+            return Err(Error::new("points were given before a frame").in_file(&self.target));
         };
         if given > self.points {
-            let what = format!("frame {}: {given} points, the cache is of {}", self.frame(), self.points);
+            let what = format!("frame {}: {given} points, but the cache has {}", self.frame(), self.points);
             return Err(Error::new(what).in_file(&self.target));
         }
         self.check(points)?;
@@ -212,7 +213,7 @@ impl Writer {
     /// Refuses points that are not finite.
     fn check(&self, points: &[Vec3]) -> Result<()> {
         let Some(p) = not_finite(points) else { return Ok(()) };
-        let what = format!("frame {}: point {p} is {}: refused, the file would be useless", self.frame(), points[p]);
+        let what = format!("frame {}: point {p} is {}: it must be finite", self.frame(), points[p]);
         Err(Error::new(what).in_file(&self.target))
     }
 
@@ -220,11 +221,11 @@ impl Writer {
     pub fn finish(mut self) -> Result<u64> {
         let named = |e: Error| e.in_file(&self.target);
         if let Some((_, given)) = self.open {
-            let what = format!("frame {}: {given} points, the cache is of {}", self.frame(), self.points);
+            let what = format!("frame {}: {given} points, but the cache has {}", self.frame(), self.points);
             return Err(named(Error::new(what)));
         }
         if self.frame() != self.frames {
-            return Err(named(Error::new(format!("{} frames, the cache is of {}", self.frame(), self.frames))));
+            return Err(named(Error::new(format!("{} frames, but the cache has {}", self.frame(), self.frames))));
         }
         let Places { bounds, sums } = self.places;
         let out = &mut self.file;
@@ -273,7 +274,7 @@ fn write_header(out: &mut dyn Write, header: &Header, frames: u64) -> Result<Pla
     attributes::block(&mut blocks, BOUNDS_TAG, Some(&none))?;
     let bounds = HEADER_BYTES + (blocks.len() - size_of_val(&none)) as u64;
     let room = usize::try_from(frames).ok().and_then(|n| n.checked_add(1)).filter(|&n| n < isize::MAX as usize / 8);
-    let room = vec![0_u64; room.ok_or_else(|| Error::new(format!("{frames} frames: more than memory has room for")))?];
+    let room = vec![0_u64; room.ok_or_else(|| Error::new(format!("{frames} frames do not fit in memory")))?];
     attributes::block(&mut blocks, SUMS_TAG, Some(&room))?;
     let sums = HEADER_BYTES + (blocks.len() - size_of_val(&room[..])) as u64;
     out.write_all(MAGIC)?;
@@ -355,7 +356,7 @@ impl<R: std::io::Read + Seek> Reader<R> {
         }
         if strands.points().len() != self.header.point_count() {
             let (given, own) = (strands.points().len(), self.header.point_count());
-            return Err(Error::new(format!("frame {frame}: room for {given} points, the cache has {own}")));
+            return Err(Error::new(format!("frame {frame}: room for {given} points, but the cache has {own}")));
         }
         self.source.seek(self.first_frame_at + frame * self.header.frame_bytes())?;
         self.source.begin_sum();
@@ -367,8 +368,7 @@ impl<R: std::io::Read + Seek> Reader<R> {
             return Err(Error::new(format!("frame {frame}: {DAMAGED}")));
         }
         if !pose.is_valid() {
-            let line =
-                format!("the head is at {position_cm}, turned {rotation}, which is no pose: the file is damaged");
+            let line = format!("the head is at {position_cm}, turned {rotation}: the file is damaged");
             return Err(Error::new(format!("frame {frame}: {line}")));
         }
         finite::points(strands).map_err(|e| Error::new(format!("frame {frame}: {}", e.what)))?;
@@ -398,7 +398,7 @@ fn check_starts(starts: &[u32]) -> Result<()> {
     match starts.windows(2).position(too_short) {
         None => Ok(()),
         Some(s) => Err(Error::new(format!(
-            "strand {s}: starts at point {} and the next at {}: a strand has 2 points at least",
+            "strand {s}: starts at point {} and the next at {}: a strand needs at least 2 points",
             starts[s],
             starts[s + 1]
         ))),
@@ -412,7 +412,7 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
     }
     let [version, strand_count, point_count, _]: [u32; 4] = source.value("counts")?;
     if version != VERSION {
-        return Err(Error::new(format!("version is {version}: this program reads version {VERSION}")));
+        return Err(Error::new(format!("version is {version}, but only version {VERSION} is read")));
     }
     let (frames, first_frame_at): (u64, u64) = (source.value("frame count")?, source.value("first frame")?);
     let frame_rate: f64 = source.value("frame rate")?;
@@ -435,7 +435,7 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
     }
     let starts: Vec<u32> = source.array(strand_count as usize + 1, "starts")?;
     if starts[0] != 0 || starts.last() != Some(&point_count) {
-        return Err(Error::new(format!("starts of strands do not rise from 0 to {point_count}: the file is damaged")));
+        return Err(Error::new(format!("strand starts do not rise from 0 to {point_count}: the file is damaged")));
     }
     check_starts(&starts).map_err(|e| Error::new(format!("{}: the file is damaged", e.what)))?;
     let blocks_at = HEADER_BYTES + (starts.len() as u64 * 4).next_multiple_of(8);
@@ -453,7 +453,8 @@ fn read_header<R: std::io::Read + Seek>(source: &mut Bytes<R>) -> Result<Start> 
     if let Some(piece) = &piece {
         let expected = piece.shard.range(usize::try_from(piece.strands).unwrap_or(usize::MAX)).len();
         if expected != strand_count as usize {
-            let what = format!("shard {}: {strand_count} strands and not {expected}: the file is damaged", piece.shard);
+            let shard = piece.shard;
+            let what = format!("shard {shard}: {strand_count} strands instead of {expected}: the file is damaged");
             return Err(Error::new(what));
         }
     }

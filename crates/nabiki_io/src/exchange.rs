@@ -209,7 +209,7 @@ fn left_out_of(motion: &[Placed], bound: Option<&Placed>) -> Option<&'static str
     match (scaled, sheared) {
         (false, false) => None,
         (true, false) => Some("its scale, which changes"),
-        (false, true) => Some("its shear: scaled unevenly above a turn"),
+        (false, true) => Some("its shear, from uneven scale above a rotation"),
         (true, true) => Some("its scale, which changes, and its shear"),
     }
 }

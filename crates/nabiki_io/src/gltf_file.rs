@@ -43,7 +43,7 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(gltf::Document, Option<&[u8]>)> {
     let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
     if let Some(missing) = primitives.flat_map(|p| p.attributes.values()).find(|a| a.value() >= json.accessors.len()) {
         let (missing, count) = (missing.value(), json.accessors.len());
-        return Err(Error::new(format!("is not a readable glTF: accessor {missing} is named, there are {count}")));
+        return Err(Error::new(format!("is not a readable glTF: names accessor {missing}, but has {count}")));
     }
     Ok((gltf::Document::from_json(json).map_err(unreadable)?, blob))
 }

@@ -141,7 +141,7 @@ pub fn losses(path: &Path, hair: &Hair) -> Result<Vec<String>> {
         Format::Tfx => Ok(tfx::losses(hair)),
         Format::Usd | Format::Alembic => Ok(exchange::losses(path, hair)),
         Format::ObjLines => {
-            Err(Error::new("hair is not written as .obj: write .hair, .tfx, .usd, .usda, .usdc or .abc").in_file(path))
+            Err(Error::new("cannot write hair as .obj: write .hair, .tfx, .usd, .usda, .usdc or .abc").in_file(path))
         }
     }
 }

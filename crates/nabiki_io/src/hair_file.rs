@@ -120,7 +120,7 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     lose(a.point_uv.is_some(), "point UVs");
     lose(a.inverse_mass.is_some(), "which points are held");
     let no_width = a.width.is_none() && a.constant.width == Some(0.0);
-    lose(no_width, "the width 0 of all points (there it stands for none)");
+    lose(no_width, "the width 0 of all points (there 0 means no width)");
     lost.extend(passed_on(hair));
     lost
 }
@@ -133,7 +133,7 @@ pub fn to_writer(hair: &Hair, comment: &str, out: &mut dyn Write) -> Result<()> 
     let mut segments = Vec::with_capacity(strands.len());
     for (s, strand) in strands.iter().enumerate() {
         let n = u16::try_from(strand.len().wrapping_sub(1)).map_err(|_| {
-            Error::new(format!("strand {s} has {} points: a .hair file holds 1 to 65536 a strand", strand.len()))
+            Error::new(format!("strand {s} has {} points: a .hair file holds 1 to 65536 per strand", strand.len()))
         })?;
         segments.push(n);
     }

@@ -39,11 +39,11 @@ impl Format {
             "usd" | "usda" | "usdc" => Ok(Self::Usd),
             "abc" => Ok(Self::Alembic),
             "tfxbone" => {
-                let what = "holds no strands, only how those of the .tfx beside it follow bones: read that";
+                let what = "holds no strands, only bone weights for the .tfx beside it: read the .tfx";
                 Err(Error::new(what).in_file(path))
             }
             other => {
-                let known = ".hair, .tfx, .usd, .usda, .usdc or .abc, and .obj to be read";
+                let known = ".hair, .tfx, .usd, .usda, .usdc or .abc (.obj only to read)";
                 let line = format!("ending \"{other}\" is not a hair format: {known}{}", way_out(other));
                 Err(Error::new(line).in_file(path))
             }

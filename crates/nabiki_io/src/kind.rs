@@ -130,7 +130,7 @@ impl FileKind {
 
     /// What to do with such a file where a scene was expected; `file` is its name.
     fn way_into_a_scene(self, file: &str) -> String {
-        let in_scene = |key: &str| format!("name it in one, {key} = \"{file}\"");
+        let in_scene = |key: &str| format!("use it in a scene with {key} = \"{file}\"");
         match self {
             Self::YukselHair | Self::TressFxHair => in_scene("hair.file"),
             Self::TressFxMesh | Self::Gltf | Self::Ply => in_scene("head.mesh"),
@@ -143,7 +143,7 @@ impl FileKind {
                 let file = quoted(&operand(file));
                 format!("nabiki render SCENE --motion {file} renders it, nabiki info {file} describes it")
             }
-            _ => "give the scene that is meant".to_owned(),
+            _ => "give a scene".to_owned(),
         }
     }
 }
@@ -164,7 +164,7 @@ impl fmt::Display for FileKind {
             Self::UsdCrate => "a USD layer (binary)",
             Self::UsdPackage => "a USD package",
             Self::Alembic => "an Alembic archive",
-            Self::Hdf5 => "an HDF5 file (an Alembic archive of before 2014, perhaps)",
+            Self::Hdf5 => "an HDF5 file (perhaps an Alembic archive from before 2014)",
             Self::Bvh => "BVH motion",
             Self::AcclaimMotion => "Acclaim motion",
             Self::AcclaimSkeleton => "an Acclaim skeleton",
@@ -202,7 +202,7 @@ pub fn check_scene_to_be(path: &Path, text: &str) -> Result<()> {
     match FileKind::of_bytes(text.as_bytes()).or_else(|| FileKind::of_name(path)) {
         None | Some(FileKind::Scene) => Ok(()),
         Some(kind) => {
-            let line = format!("would be taken for {kind}: a scene ends in .toml, choose another name");
+            let line = format!("would be mistaken for {kind}: a scene ends in .toml; choose another name");
             Err(Error::new(line).in_file(path))
         }
     }
@@ -240,11 +240,11 @@ mod tests {
         };
         assert_eq!(
             refused("hair.usdc", b"PXR-USDC").unwrap_err(),
-            "hair.usdc: is a USD layer (binary), not a scene (.toml): name it in one, hair.file = \"hair.usdc\" or head.mesh"
+            "hair.usdc: is a USD layer (binary), not a scene (.toml): use it in a scene with hair.file = \"hair.usdc\" or head.mesh"
         );
         assert_eq!(
             refused("walk.bvh", b"HIERARCHY").unwrap_err(),
-            "walk.bvh: is BVH motion, not a scene (.toml): name it in one, head.motion.file = \"walk.bvh\""
+            "walk.bvh: is BVH motion, not a scene (.toml): use it in a scene with head.motion.file = \"walk.bvh\""
         );
         assert!(refused("gust.nabiki", b"NABIKI\r\n").unwrap_err().contains("render SCENE --motion gust.nabiki"));
         assert!(refused("a.png", b"\x89PNG").unwrap_err().contains("is a PNG picture, not a scene"));

@@ -269,7 +269,7 @@ mod tests {
         let nan = refused("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
         assert_eq!(nan, "vertex 2: (0, NaN, 0) is not a place: coordinates must be finite");
         assert_eq!(refused("v 0 0 0\nf 1 2 3\n"), "\"f 1 2 3\": \"2\" is not one of the 1 vertices before this line");
-        assert_eq!(refused("v 0 0 0\nf 1 1\n"), "\"f 1 1\": a face has three vertices or more");
+        assert_eq!(refused("v 0 0 0\nf 1 1\n"), "\"f 1 1\": a face needs at least three vertices");
         // Found by fuzzing.
         assert!(refused("v 1 0 0\nv 2 3 4\nf -1//-2 //4 1\n").contains("\"//4\" is not one of the 2 vertices"));
     }
@@ -282,9 +282,10 @@ mod tests {
             assert_eq!((mesh.triangles.len(), mesh.corner_uvs), (1, None), "{text}");
             lost
         };
-        let named = "texture coordinates: line 5: \"f 1/1 2/2 3\": \"2/2\" names none of the 1 texture coordinates before this line";
+        let named = "texture coordinates: line 5: \"f 1/1 2/2 3\": \"2/2\" is not one of the 1 texture coordinates before \
+                     this line";
         assert_eq!(read("v 1 0 0\nv 2 3 4\nv 0 0 1\nvt 0 0\nf 1/1 2/2 3\n"), [named]);
-        let word = "texture coordinates: line 4: \"vt 0 x\": texture coordinates are one to three numbers";
+        let word = "texture coordinates: line 4: \"vt 0 x\": texture coordinates need one to three numbers";
         assert_eq!(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 x\nvt 0 0\nf 1/1 2/2 3/2\n"), [word]);
         let nan = "texture coordinates: those of triangle 0 are (0, NaN), which are not finite";
         assert_eq!(read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 nan\nf 1/1 2/1 3/1\n"), [nan]);

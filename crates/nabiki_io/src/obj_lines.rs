@@ -24,7 +24,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Hair> {
             Some("l") => {
                 let vertex = |word| obj_text::vertex(word, vertices.len(), line, i + 1);
                 if !lines.push(words.map(vertex), i + 1)? {
-                    return Err(obj_text::refusal(line, i + 1, "a line has vertices"));
+                    return Err(obj_text::refusal(line, i + 1, "a line needs vertices"));
                 }
             }
             _ => {}

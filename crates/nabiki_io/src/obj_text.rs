@@ -51,7 +51,7 @@ pub(crate) fn place<'a>(mut words: impl Iterator<Item = &'a str>, line: &str, nu
     let mut coordinate = || words.next().and_then(|word| word.parse().ok());
     match (coordinate(), coordinate(), coordinate()) {
         (Some(x), Some(y), Some(z)) => Ok(Vec3::new(x, y, z)),
-        _ => Err(refusal(line, number, "a vertex has three numbers")),
+        _ => Err(refusal(line, number, "a vertex needs three numbers")),
     }
 }
 
@@ -65,7 +65,7 @@ pub(crate) fn texture_coordinates<'a>(
     let v = words.next().map_or(Some(0.0), |word| word.parse().ok());
     match (u, v) {
         (Some(u), Some(v)) => Ok(Vec2::new(u, v)),
-        _ => Err(refusal(line, number, "texture coordinates are one to three numbers")),
+        _ => Err(refusal(line, number, "texture coordinates need one to three numbers")),
     }
 }
 
@@ -81,7 +81,7 @@ pub(crate) fn vertex(word: &str, count: usize, line: &str, number: usize) -> Res
 pub(crate) fn texture(word: &str, count: usize, line: &str, number: usize) -> Result<Option<usize>> {
     let Some(named) = word.split('/').nth(1).filter(|named| !named.is_empty()) else { return Ok(None) };
     let found = index(named, count).map(|i| i as usize);
-    let why = || format!("\"{word}\" names none of the {count} texture coordinates before this line");
+    let why = || format!("\"{word}\" is not one of the {count} texture coordinates before this line");
     found.map(Some).ok_or_else(|| refusal(line, number, &why()))
 }
 

@@ -34,7 +34,7 @@ impl Placement {
     pub fn check(&self, table: &str) -> Result<(), SettingError> {
         nabiki::error::check_positive(&format!("{table}.unit"), self.unit.cm)?;
         if self.up.vector().dot(self.facing.vector()) != 0.0 {
-            let remedy = format!("must be another axis than {table}.up, which is \"{}\"", self.up);
+            let remedy = format!("must not lie along {table}.up, which is \"{}\"", self.up);
             return Err(SettingError::new(format!("{table}.facing"), format!("\"{}\"", self.facing), remedy));
         }
         if !self.origin.is_finite() {
@@ -115,7 +115,7 @@ mod tests {
         let good = facing_z_in_metres();
         assert_eq!(
             refused(Placement { facing: Axis::MinusY, ..good }),
-            "hair.facing = \"-y\": must be another axis than hair.up, which is \"+y\""
+            "hair.facing = \"-y\": must not lie along hair.up, which is \"+y\""
         );
         assert_eq!(
             refused(Placement { unit: Unit { cm: 0.0 }, ..good }),

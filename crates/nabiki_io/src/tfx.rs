@@ -155,14 +155,14 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     lose(a.guide.is_some(), "guide flags");
     if let Some(width) = &a.width {
         let tapers = (0..hair.strands.len()).any(|s| width[hair.strands.range(s)].windows(2).any(|w| w[0] != w[1]));
-        lose(tapers, "width along a strand (each strand gets that of its root)");
+        lose(tapers, "width along a strand (each strand keeps the width at its root)");
     }
     let transparencies = a.transparency.iter().flatten().chain(&a.constant.transparency);
     lose(transparencies.clone().any(|t| 1.0 - (1.0 - t) != *t), "the last bits of transparencies (it holds 1 - t)");
     let points = hair.strands.iter().next().map_or(0, <[Vec3]>::len);
     let loads = points.is_power_of_two() && (4..=64).contains(&points);
     if !loads {
-        lost.push(format!("{points} points a strand as TressFX itself wants them: 4, 8, 16, 32 or 64"));
+        lost.push(format!("{points} points per strand: TressFX itself loads 4, 8, 16, 32 or 64"));
     }
     lost.extend(passed_on(hair));
     lost
@@ -176,7 +176,7 @@ pub fn to_writer(hair: &Hair, out: &mut dyn Write) -> Result<()> {
     };
     if let Some((s, strand)) = strands.iter().enumerate().find(|(_, strand)| strand.len() != points) {
         return Err(Error::new(format!(
-            "strand 0 has {points} points and strand {s} {}: a .tfx file holds strands of one number of points; resample them (convert --segments N) or write .hair",
+            "strand 0 has {points} points and strand {s} has {}: in a .tfx file all must have the same number; resample them (convert --segments N) or write .hair",
             strand.len()
         )));
     }

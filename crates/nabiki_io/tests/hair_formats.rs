@@ -69,7 +69,7 @@ fn every_attribute_is_kept_or_said_to_be_lost() {
     let further = ["P_rest", "clump", "map", "seed of the groom"];
     let own = ["strand ids", "root UVs", "groups", "guide flags", "point UVs", "which points are held"];
     assert_eq!(hair_file::losses(&whole), [&own[..], &further[..]].concat());
-    let own = ["strand ids", "groups", "guide flags", "width along a strand (each strand gets that of its root)"];
+    let own = ["strand ids", "groups", "guide flags", "width along a strand (each strand keeps the width at its root)"];
     assert_eq!(tfx::losses(&whole), [&own[..], &further[..]].concat());
     // Each by itself, too: no loss hides behind another.
     let strands = &whole.strands;
@@ -91,7 +91,7 @@ fn a_width_of_0_for_all_points_is_said_to_be_lost_where_it_stands_for_none() {
     let mut hair = samples::hair(&[4, 4]);
     hair.attributes =
         Attributes { constant: Constants { width: Some(0.0), ..Constants::default() }, ..Attributes::default() };
-    assert_eq!(hair_file::losses(&hair), ["the width 0 of all points (there it stands for none)"]);
+    assert_eq!(hair_file::losses(&hair), ["the width 0 of all points (there 0 means no width)"]);
     let (mut to_hair, mut to_tfx) = (Vec::new(), Vec::new());
     hair_file::to_writer(&hair, "", &mut to_hair).unwrap();
     assert_eq!(hair_file::from_bytes(&to_hair).unwrap().attributes.constant.width, None);
@@ -114,7 +114,7 @@ fn strands_of_different_lengths_are_refused_by_tfx_with_the_way_out() {
     let error = tfx::to_writer(&samples::hair(&[3, 2]), &mut Vec::new()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "strand 0 has 3 points and strand 1 2: a .tfx file holds strands of one number of points; resample them \
+        "strand 0 has 3 points and strand 1 has 2: in a .tfx file all must have the same number; resample them \
          (convert --segments N) or write .hair"
     );
 }
@@ -160,7 +160,7 @@ fn a_missing_file_a_folder_and_a_strange_ending_are_named() {
     let error = hair::read("hair.fbx".as_ref()).unwrap_err().to_string();
     assert_eq!(
         error,
-        "hair.fbx: ending \"fbx\" is not a hair format: .hair, .tfx, .usd, .usda, .usdc or .abc, and .obj to be read; its \
+        "hair.fbx: ending \"fbx\" is not a hair format: .hair, .tfx, .usd, .usda, .usdc or .abc (.obj only to read); its \
          programs read and write USD and Alembic"
     );
 }

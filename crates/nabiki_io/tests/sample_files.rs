@@ -423,7 +423,7 @@ fn a_table_whose_times_do_not_grow_is_refused_by_info_as_by_a_scene() {
         info(&path).map(|info| info.to_string()).map_err(|e| e.to_string())
     };
     for times in [[1, 0], [1, 1]] {
-        assert!(write(&times).unwrap_err().contains("s follows 1 s, but times must grow"));
+        assert!(write(&times).unwrap_err().contains("s follows 1 s, but times must increase"));
     }
     assert!(write(&[3]).unwrap().starts_with("motion: 1 samples, too few to move anything\n"));
     assert!(write(&[]).unwrap().starts_with("motion: 0 samples, too few to move anything\n"));

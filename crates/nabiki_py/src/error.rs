@@ -66,7 +66,8 @@ pub fn line(py: Python<'_>, line: impl Into<String>) -> PyErr {
 }
 
 fn setting_parts(nabiki::SettingError { thing, value, remedy }: nabiki::SettingError) -> Parts {
-    Parts { thing: Some(thing.to_string()), value: Some(value), way_out: Some(remedy), ..Parts::default() }
+    let value = Some(value).filter(|value| !value.is_empty());
+    Parts { thing: Some(thing.to_string()), value, way_out: Some(remedy), ..Parts::default() }
 }
 
 fn place_parts(file: &Path, what: String, system: ErrorKind) -> Parts {

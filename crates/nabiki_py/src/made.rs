@@ -58,7 +58,7 @@ impl Files {
     /// A new one, empty.
     fn file(&mut self, py: Python<'_>, ending: &str) -> PyResult<PathBuf> {
         let new = tempfile::Builder::new().prefix("nabiki_").suffix(ending).tempfile();
-        let new = new.map_err(|e| error::line(py, format!("no place for arrays beside other temporary files: {e}")))?;
+        let new = new.map_err(|e| error::line(py, format!("cannot write arrays to a temporary file: {e}")))?;
         let file = File { path: new.into_temp_path(), process: std::process::id() };
         let path = file.path.to_owned();
         self.0.push(Arc::new(file));
@@ -94,8 +94,8 @@ impl Files {
             for &corner in face {
                 if !(0..points.len() as i64).contains(&corner) {
                     let way_out = match points.len() {
-                        0 => "names no point: there are none".to_owned(),
-                        count => format!("names no point: the points are 0 to {}", count - 1),
+                        0 => "is not a point: there are none".to_owned(),
+                        count => format!("is not a point: the points are 0 to {}", count - 1),
                     };
                     return Err(error::argument(py, &format!("{thing} faces"), corner, &way_out));
                 }
@@ -136,7 +136,7 @@ pub fn hair(arrays: &Bound<'_, PyTuple>) -> PyResult<Hair> {
     let offsets: Vec<i64> = starts.as_array().to_vec();
     let count = points.len() as i64;
     if offsets.len() < 2 {
-        let way_out = "hair has one strand at least: 0, and the number of points where each strand ends";
+        let way_out = "must have at least one strand: 0, then the point count at the end of each strand";
         return refused(format!("{offsets:?}"), way_out);
     }
     if offsets[0] != 0 || offsets.last() != Some(&count) {
@@ -144,11 +144,11 @@ pub fn hair(arrays: &Bound<'_, PyTuple>) -> PyResult<Hair> {
         return refused(ends, &format!("must begin with 0 and end with the number of points, {count}"));
     }
     if let Some(s) = offsets.windows(2).position(|w| w[1] - w[0] < 2) {
-        let way_out = "every strand must have two points at least";
+        let way_out = "every strand must have at least two points";
         return refused(format!("{} points in strand {s}", offsets[s + 1] - offsets[s]), way_out);
     }
     if count > i64::from(u32::MAX) {
-        return refused(count.to_string(), "must be below 2^32 points in all");
+        return refused(count.to_string(), "must be less than 2^32 points in all");
     }
     Ok(Strands::from_parts(offsets.iter().map(|&at| at as u32).collect(), points).into())
 }

@@ -96,7 +96,7 @@ impl Simulation {
         match place.failed {
             false => Ok(place),
             true => Err(PyRuntimeError::new_err(
-                "a step of this simulation failed: begin another, scene.simulate(), or restore() what was before",
+                "a step of this simulation failed: start another with scene.simulate(), or restore() an earlier state",
             )),
         }
     }

@@ -45,7 +45,7 @@ fn of_process(here: u32) -> Result<&'static ThreadPool> {
     match *own {
         Some((process, pool)) if process == here => Ok(pool),
         _ => {
-            let fewer = "set RAYON_NUM_THREADS to fewer before they are first wanted";
+            let fewer = "set RAYON_NUM_THREADS to fewer before the first use";
             let pool: &'static ThreadPool = Box::leak(Box::new(threads::made(None, fewer, ThreadPoolBuilder::build)?));
             *own = Some((here, pool));
             Ok(pool)

@@ -78,11 +78,11 @@ impl Walk {
         let address = holder.as_ptr() as usize;
         if self.around.contains(&address) {
             let what = format!("a {} within itself", holder.get_type().name()?);
-            return refused(what, "a setting is made of numbers, words, and lists and tables of them that end");
+            return refused(what, "a list or table in a setting must not contain itself");
         }
         if self.around.len() == DEEPEST {
             let what = format!("a {} {DEEPEST} lists or tables deep", holder.get_type().name()?);
-            return refused(what, "no setting lies so deep");
+            return refused(what, "no setting is nested so deep");
         }
         self.take(key, holder, 1)?;
         self.around.push(address);
@@ -152,7 +152,7 @@ impl Walk {
                     .map(Value::Array)
             });
         }
-        Err(PyTypeError::new_err(format!("{key}: {} is not a value of a setting", value.get_type().name()?)))
+        Err(PyTypeError::new_err(format!("{key}: a setting cannot be of type {}", value.get_type().name()?)))
     }
 
     /// A dictionary as a table.
@@ -172,7 +172,7 @@ impl Walk {
 
     /// Words, or a path; text that a file cannot hold is refused, and not changed into some that it can.
     fn text(&mut self, key: &str, text: &Bound<'_, PyAny>) -> PyResult<Value> {
-        let way_out = "must be text of Unicode: a scene file is UTF-8, and so are the paths in it";
+        let way_out = "must be valid Unicode: scene files and the paths in them are UTF-8";
         let refused = || error::argument(text.py(), key, shown(text), way_out);
         let words: String = text.extract().map_err(|_| refused())?;
         self.take(key, text, 1 + words.len() / 2)?;

@@ -54,7 +54,7 @@ pub fn check_body(built: &BuiltScene, body: usize) -> Result<(), String> {
     let there = built.scene.bodies.len();
     match (&built.dynamics.form, number(felt(built), body)) {
         (_, Some(_)) => Ok(()),
-        _ if body >= there => Err(format!("the scene has {there} bodies: scene.bodies has to name all of them")),
+        _ if body >= there => Err(format!("the scene has {there} bodies: scene.bodies must name all of them")),
         (Form::Paper, _) => Err("hair feels bodies only in the free form: set motion.form = \"free\"".to_owned()),
         (Form::Free(_), _) => Err(format!("hair does not feel it: set body[{body}].solid = true, or give None")),
     }
@@ -127,7 +127,7 @@ impl Way {
     pub fn of_bytes<'a>(&self, bytes: &'a [u8]) -> Result<(Self, u32, &'a [u8]), (String, String)> {
         let refused = |way_out: &str| Err((format!("{} bytes", bytes.len()), way_out.to_owned()));
         let Some(rest) = bytes.strip_prefix(&MAGIC) else {
-            return refused("were not written by state()");
+            return refused("was not written by state()");
         };
         let words =
             |bytes: &[u8]| -> Vec<u32> { bytes.as_chunks().0.iter().map(|&word| u32::from_le_bytes(word)).collect() };
@@ -135,19 +135,21 @@ impl Way {
         // Beyond what there is no state of any scene has bodies.
         let count = FIRST + POSE * (2 + bodies.min(rest.len()));
         let Some((own, hair)) = rest.split_at_checked(4 * (count + 1)) else {
-            return refused("are cut short");
+            return refused("is cut short");
         };
         let words = words(own);
         if checksum(&words[..count]) != words[count] {
-            return refused("are altered: their checksum does not match");
+            return refused("is altered: its checksum does not match");
         }
         if hair.len() / 4 != words[2] as usize {
-            return refused("are cut short, or followed by others");
+            return refused("is cut short, or has bytes after its end");
         }
         if bodies != self.bodies.len() {
-            let way_out =
-                format!("this scene has {}: give those that it was saved with, or begin from rest", self.bodies.len());
-            return Err((format!("of {bodies} bodies"), way_out));
+            let way_out = format!(
+                "has {bodies} bodies, but this scene has {}: give those it was saved with, or begin from rest",
+                self.bodies.len()
+            );
+            return Err((String::new(), way_out));
         }
         let mut poses = words[FIRST..count].as_chunks::<POSE>().0.iter().map(|&[is_there, rest @ ..]| {
             let [x, y, z, turn @ ..] = rest.map(f32::from_bits);

@@ -76,7 +76,7 @@ fn goes_into_every_format(path: &Path) {
         let written = hair::write(&copy, &original);
         if ending == "tfx" && !even {
             let said = written.unwrap_err().to_string();
-            assert!(said.contains("holds strands of one number of points; resample them"), "{said}");
+            assert!(said.contains("all must have the same number; resample them"), "{said}");
             continue;
         }
         let lost = written.unwrap();

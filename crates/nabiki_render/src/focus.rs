@@ -103,8 +103,8 @@ impl Subject {
         let middle = (self.0.center - view.eye).dot(view.forward);
         let near_side = middle - (self.0.half_axes * view.forward).length();
         if near_side < NEAR {
-            let way_out = "the eye is not in front of the head, so it cannot focus on it: give a distance (cm)";
-            return Err(SettingError::new("picture.camera.focus_distance", "none", way_out));
+            let way_out = "is needed, because the eye is not in front of the head: give a distance (cm)";
+            return Err(SettingError::new("picture.camera.focus_distance", "", way_out));
         }
         Ok(View { lens: Some(Lens { focus: Some(near_side), ..lens }), ..*view })
     }

@@ -517,7 +517,7 @@ fn check_mesh(mesh: &Mesh, name: &str) -> Result<(), RenderError> {
     }
     let vertices = mesh.positions.len();
     match mesh.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= vertices)) {
-        Some(t) => Err(RenderError::Geometry(format!("triangle {t} of {name} names a vertex beyond its {vertices}"))),
+        Some(t) => Err(RenderError::Geometry(format!("triangle {t} of {name} names a vertex past its {vertices}"))),
         None => Ok(()),
     }
 }

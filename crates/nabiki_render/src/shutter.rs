@@ -24,7 +24,7 @@ const CHUNK: usize = 256;
 pub fn between(a: &Strands, b: &Strands, part: f32) -> Result<Strands, RenderError> {
     if a.starts() != b.starts() {
         return Err(RenderError::Geometry(format!(
-            "the hair has {} strands of {} points before and {} of {} after: they must agree to move",
+            "the hair has {} strands of {} points before and {} of {} after: they must match",
             a.len(),
             a.points().len(),
             b.len(),

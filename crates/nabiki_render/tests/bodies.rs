@@ -189,7 +189,7 @@ fn bodies_that_cannot_be_drawn_are_refused() {
     assert!(text.starts_with("vertex 2 of body 0 lies at"), "{text}");
     let mut broken = octahedron(1.0);
     broken.triangles[3][1] = 6;
-    assert_eq!(with(broken).err().unwrap().to_string(), "triangle 3 of body 0 names a vertex beyond its 6");
+    assert_eq!(with(broken).err().unwrap().to_string(), "triangle 3 of body 0 names a vertex past its 6");
     let strands = hair();
     let frame = FrameToDraw::at_rest(&strands, view(&picture()));
     let text = with(octahedron(1.0)).unwrap().draw(&frame).unwrap_err().to_string();

@@ -12,12 +12,12 @@ pub struct Advice {
 }
 
 impl Advice {
-    /// What no one setting mends.
+    /// Advice that no single setting fixes.
     pub(crate) fn new(seen: impl Into<String>) -> Self {
         Self { seen: seen.into(), fixes: Vec::new() }
     }
 
-    /// Whether a file's unit is to be mended.
+    /// Whether it suggests another unit for a file.
     pub(crate) fn is_of_unit(&self) -> bool {
         self.fixes.iter().any(|fix| fix.key.ends_with(".unit"))
     }

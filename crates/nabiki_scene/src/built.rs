@@ -142,7 +142,7 @@ impl Shown {
 }
 
 impl BuiltScene {
-    /// Those of the bodies that hair feels that have openings, by number, and how many edges these have.
+    /// The bodies with openings that hair feels: their index, and the number of open edges.
     pub(crate) fn open_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
         let felt = self.bodies.iter().zip(&self.scene.bodies).enumerate().filter(|(_, (_, settings))| settings.solid);
         let edges = felt.map(|(i, (body, _))| (i, body.mesh.clone().turn_outward().open_edges));
@@ -168,7 +168,7 @@ impl BuiltScene {
         built.map_err(|refused| self.refusal(refused))
     }
 
-    /// Refuses hair whose motion takes more memory than there is, `times` what the fast stepper takes.
+    /// Refuses hair whose motion needs more memory than there is: `times` what the fast stepper needs.
     fn check_memory(&self, times: u64) -> Result<()> {
         let strands = self.strands();
         let Some(short) = memory::short_of(times * Simulation::least_bytes(strands, &self.dynamics)) else {
@@ -176,7 +176,7 @@ impl BuiltScene {
         };
         let key = if self.scene.hair.grown().is_some() { "hair.strands" } else { "hair.file" };
         let what = format!("{} strands of {} segments in all", strands.len(), strands.segment_count());
-        let remedy = format!("to move them {short}: show fewer of them, or simulate them in shards");
+        let remedy = format!("moving them {short}: show fewer, or simulate them in shards");
         Err(self.scene.refusal(SettingError::new(key, what, remedy)).into())
     }
 
@@ -295,7 +295,7 @@ impl BuiltScene {
     pub fn first_frame(&self) -> i32 {
         let of_hair = || {
             let first = (self.groom.imported.as_ref()?.begins? * self.scene.frame_rate()).round() as i32;
-            // A number that no shot has is a program's way of saying none.
+            // Programs use an impossible number to say none.
             (first.unsigned_abs() <= Motion::MOST_FRAMES).then_some(first)
         };
         self.scene.output.first_frame.or(self.way.begins).or_else(of_hair).unwrap_or(0)
@@ -305,7 +305,7 @@ impl BuiltScene {
     /// because no other setting would help then.
     pub fn refusal(&self, mut refused: SettingError) -> Error {
         let units = self.advice().into_iter().filter(Advice::is_of_unit);
-        units.for_each(|advice| refused.remedy += &format!("; look first at the size: {advice}"));
+        units.for_each(|advice| refused.remedy += &format!("; check the size first: {advice}"));
         self.scene.refusal(refused).into()
     }
 }

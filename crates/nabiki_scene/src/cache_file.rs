@@ -17,7 +17,7 @@ pub(crate) struct SceneCache<'a> {
 }
 
 impl<'a> SceneCache<'a> {
-    /// Begins the file. `piece`: what it says of the whole, where the scene is built in part.
+    /// Begins the file. `piece`: what it records of the whole, if only a shard is built.
     pub fn begin(built: &'a BuiltScene, path: &Path, piece: Option<Piece>, watch: &mut dyn Watch) -> Result<Self> {
         let points = built.strands().points().len() as u64;
         // A pose of seven numbers and the points, all of four bytes.
@@ -32,7 +32,7 @@ impl<'a> SceneCache<'a> {
         Ok(Self { built, writer: Writer::create(path, &header, frames)? })
     }
 
-    /// Takes the next frame, `n`.
+    /// Writes the next frame, `n`.
     pub fn push(&mut self, n: u32, strands: &nabiki::Strands) -> Result<()> {
         Ok(self.writer.push(&self.built.pose(n), strands.points())?)
     }

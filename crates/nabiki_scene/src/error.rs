@@ -44,20 +44,20 @@ impl Error {
         Self::Refused(line.into())
     }
 
-    /// The same with what is the likelier cause, if anything is: where a head or hair has the size of neither, a number is refused that
-    /// is right for one that has.
+    /// Adds the likelier cause, if there is one: with an implausible size of head or hair, a plausible number is
+    /// refused.
     pub(crate) fn blamed_on(mut self, size: Option<Advice>) -> Self {
         if let (Self::Scene(refused), Some(size)) = (&mut self, size)
             && let Problem::Range { value, remedy } = &mut *refused.problem
-            // A file that is not there, or a word, has no size.
+            // A missing file, or a word, has no size.
             && !value.starts_with('"')
         {
-            *remedy += &format!("; look first at the size: {size}");
+            *remedy += &format!("; check the size first: {size}");
         }
         self
     }
 
-    /// A place that is refused.
+    /// The error for a refused place.
     pub(crate) fn place(file: &Path, what: impl Into<String>, system: std::io::ErrorKind) -> Self {
         Self::Place { file: file.to_owned(), what: what.into(), system }
     }

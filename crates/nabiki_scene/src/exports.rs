@@ -61,7 +61,7 @@ impl ExportOptions {
 pub(crate) struct Exports<'a> {
     sinks: Vec<(PathBuf, Box<dyn FrameSink + 'a>)>,
     origin: Option<Origin>,
-    /// Strands that the hair's file has tip first, and room for a frame with these turned back.
+    /// Strands that the hair's file stores tip first, and memory for a frame with these reversed.
     turned: Option<(&'a [bool], Strands)>,
     next: u32,
 }
@@ -91,7 +91,7 @@ impl<'a> Exports<'a> {
                 fits(in_file)?;
                 if let Some(imported) = imported {
                     let curves = imported.curves.under_layer(prim)?;
-                    // Curves of a single point are none that are read.
+                    // Curves of a single point are not read.
                     fits(Some(curves.points))?;
                     exchange::under_groom(&mut export, curves);
                     super::tasks::lost(path, exchange::layer_losses(curves, built.head_moves()), watch);
@@ -109,7 +109,7 @@ impl<'a> Exports<'a> {
         Ok(Self { sinks, origin: built.hair_origin(), turned, next: 0 })
     }
 
-    /// Passes on frame `n`, unless it has been passed on before.
+    /// Writes frame `n`, unless it was written before.
     pub fn frame(&mut self, n: u32, strands: &Strands, pose: &Pose) -> Result<()> {
         if n != self.next {
             return Ok(());

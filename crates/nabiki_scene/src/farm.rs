@@ -20,16 +20,16 @@ pub enum Engine {
 /// What a job does.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
-    /// The scene's name, with which those of results begin.
+    /// The scene's name, which begins the names of results.
     pub name: String,
     /// The scene file, from the root of the file system.
     pub scene: PathBuf,
-    /// The folder that the job is written into, and that of its results, from the root of the file system.
+    /// The folder of the job file, and that of its results, as absolute paths.
     pub folder: PathBuf,
     pub results: PathBuf,
     /// Changes to the scene: `motion.time_step=0.05`.
     pub sets: Vec<String>,
-    /// Strands asked for; all of the scene's without.
+    /// Number of strands; `None` for all of the scene's.
     pub strands: Option<usize>,
     pub shards: u32,
     /// The last frame.
@@ -39,11 +39,11 @@ pub(crate) struct Plan {
     pub movie: bool,
 }
 
-/// What an engine calls the things that differ from task to task or from machine to machine.
+/// The words of an engine for what differs between tasks or machines.
 struct Names {
     scene: &'static str,
     results: &'static str,
-    /// The scene's name; it stands there itself without.
+    /// A placeholder for the scene's name; `None` writes the name itself.
     name: Option<&'static str>,
     /// Number of the shard.
     shard: &'static str,
@@ -53,9 +53,9 @@ struct Names {
 
 /// A word of a command.
 enum Word {
-    /// As it stands.
+    /// Literal text.
     Plain(String),
-    /// With what the engine puts in its place.
+    /// A placeholder that the engine fills in.
     Filled(String),
 }
 
@@ -65,7 +65,7 @@ impl From<&str> for Word {
     }
 }
 
-/// A step of the job: its tasks may run side by side, and all after the step before.
+/// A step of the job: its tasks may run in parallel, and all run after the step before.
 struct Step {
     name: &'static str,
     tasks: Tasks,
@@ -75,16 +75,16 @@ struct Step {
 
 /// The tasks of a step.
 enum Tasks {
-    /// One.
+    /// A single task.
     One,
-    /// One a shard.
+    /// One per shard.
     Shards,
-    /// One a run of frames.
+    /// One per run of frames.
     Frames,
 }
 
 impl Plan {
-    /// The steps, each after the one before.
+    /// The steps, in order.
     fn steps(&self, names: &Names) -> Vec<Step> {
         let (name, shards) = (names.name.unwrap_or(&self.name), self.shards);
         let result = |file: &str| Word::Filled(format!("{}/{file}", names.results));
@@ -105,7 +105,7 @@ impl Plan {
         let mut render = vec!["render".into(), scene()];
         render.extend(self.strands());
         render.extend(self.changes());
-        // The movie of these is that of the frames themselves.
+        // The movie of these is made from the frames themselves.
         render.extend(["--set".into(), "output.png_bits=16".into()]);
         render.extend(["--motion".into(), result(&motion)]);
         render.extend(["--frames".into(), Word::Filled(names.frames.to_owned())]);

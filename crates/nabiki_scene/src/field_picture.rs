@@ -14,13 +14,13 @@ const ARROWS: [i32; 2] = [7, 5];
 /// Arrows along the side of a slice, odd.
 const ALONG: i32 = 13;
 
-/// Frames that are looked at for the one whose slices are shown.
+/// Number of frames examined to choose the one whose slices are shown.
 const LOOKED_AT: u32 = 16;
 
 /// Most corners of the path of the wind.
 const CORNERS: u32 = 1000;
 
-/// Where the head is in the space of the forces in a frame: its centre, and what turns its axes into that space.
+/// The head in the space of the forces in a frame: its centre, and the rotation from its axes to that space.
 fn head(built: &BuiltScene, frame: u32) -> (Vec3, Quat) {
     let center = built.model.head.ellipsoid.center;
     match built.dynamics.motion.force_space {
@@ -32,7 +32,7 @@ fn head(built: &BuiltScene, frame: u32) -> (Vec3, Quat) {
     }
 }
 
-/// Forces in the plane across the view through the centre of the head, outside of it.
+/// Forces in the plane across the view through the centre of the head, outside the head.
 pub(crate) fn arrows(built: &BuiltScene, frame: u32, view: &View) -> Vec<ForceArrow> {
     let (center, turn) = head(built, frame);
     let ellipsoid = &built.model.head.ellipsoid;
@@ -48,7 +48,7 @@ pub(crate) fn arrows(built: &BuiltScene, frame: u32, view: &View) -> Vec<ForceAr
     outside.map(arrow).collect()
 }
 
-/// The field over time, and around the head where it differs from place to place.
+/// The field over time, and around the head if it varies in space.
 pub(crate) fn plot(built: &BuiltScene) -> FieldPlot {
     let field = &built.scene.field;
     let intervals =
@@ -63,7 +63,7 @@ pub(crate) fn plot(built: &BuiltScene) -> FieldPlot {
     FieldPlot { intervals, path, slices: slices(built) }
 }
 
-/// The slices of the frame, of some, in which the force beside the head is largest.
+/// The slices of the frame, among some, in which the force beside the head is largest.
 fn slices(built: &BuiltScene) -> Option<Slices> {
     let last = built.frames();
     let looked_at =

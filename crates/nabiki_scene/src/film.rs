@@ -23,14 +23,14 @@ pub(crate) struct Film<'a> {
     renderer: Renderer,
     tone_mapping: ToneMapping,
     bounds: Bounds,
-    /// The file that the motion comes from: a cache, or the scene.
+    /// The file of the motion: a cache, or the scene.
     motion: PathBuf,
-    /// The frame before, where the shutter stays open.
+    /// The frame before, if the shutter is open.
     previous: Option<Strands>,
 }
 
 impl<'a> Film<'a> {
-    /// Shows the scene as `picture` says, framed so that it holds the hair of all its `frames`.
+    /// A film of the scene as in `picture`, framed to show the hair of all its `frames`.
     pub fn new(
         built: &'a BuiltScene,
         picture: &Picture,
@@ -40,7 +40,7 @@ impl<'a> Film<'a> {
         let mut film = Self::of_head(built, picture, frames)?;
         let bounds = &mut film.bounds;
         if !picture.camera.is_automatic() {
-            // Nothing is left to be framed.
+            // Nothing needs framing.
         } else if let Some([low, high]) = frames.bounds(built.frames()) {
             bounds.include(low);
             bounds.include(high);
@@ -59,7 +59,7 @@ impl<'a> Film<'a> {
         Ok(film)
     }
 
-    /// Shows the scene, moved by `frames`, as `picture` says, framed so that it holds the head.
+    /// A film of the scene, moved by `frames`, as in `picture`, framed to show the head.
     fn of_head(built: &'a BuiltScene, picture: &Picture, frames: &dyn FrameSource) -> Result<Self> {
         let (head, strands) = (&built.model.head, built.strands().len());
         if let Some(short) = memory::short_of(Renderer::least_bytes(picture, strands, built.scene.output.exr_frames)) {
@@ -84,7 +84,7 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// The same with what compositors want of the hair, whether or not the scene asks for files that hold it.
+    /// The same with the layers that compositors need for hair, even if the scene does not ask for files with them.
     pub fn with_layers(mut self) -> Self {
         self.renderer = self.renderer.with_layers();
         self
@@ -96,7 +96,7 @@ impl<'a> Film<'a> {
         self
     }
 
-    /// Draws all frames into `outputs`, and says what the motion is like.
+    /// Draws all frames into `outputs`, and reports the statistics of the motion.
     pub fn shoot(
         &mut self,
         frames: &mut dyn FrameSource,
@@ -114,13 +114,13 @@ impl<'a> Film<'a> {
         Ok(summary)
     }
 
-    /// Draws frame `n` alone.
+    /// Draws only frame `n`.
     pub fn still(&mut self, n: u32, frames: &mut dyn FrameSource) -> Result<Frame> {
         self.begin_at(n, frames)?;
         Ok(self.draw(n, frames.frame(n)?)?.0)
     }
 
-    /// Draws the frames `wanted`, each into files of its own, as they are in the whole film.
+    /// Draws the `wanted` frames, each into its own files, as in the whole film.
     pub fn stills(
         &mut self,
         wanted: RangeInclusive<u32>,
@@ -135,8 +135,8 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// Draws one frame from `views` sides, once round it: the camera goes about its target, and the lamps that are fixed to it go along. What
-    /// moves is not blurred.
+    /// Draws one frame from `views` directions around it: the camera moves around its target together with the lamps
+    /// fixed to it. Motion is not blurred.
     pub fn turntable(
         built: &'a BuiltScene,
         (n, views): (u32, u32),
@@ -161,7 +161,7 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// Makes ready for a film that begins with frame `n`.
+    /// Prepares for a film that begins with frame `n`.
     fn begin_at(&mut self, n: u32, frames: &mut dyn FrameSource) -> Result<()> {
         if self.picture.shutter > 0.0 && n > 0 {
             self.previous = Some(frames.frame(n - 1)?.clone());
@@ -175,7 +175,7 @@ impl<'a> Film<'a> {
         View::new(&self.picture.camera.at(progress), self.picture.size, &self.bounds)
     }
 
-    /// The view of frame `n` in the world. The camera goes along with the head, and does not turn with it.
+    /// The view of frame `n` in the world. The camera follows the head, and does not turn with it.
     fn view_in_world(&self, n: u32) -> View {
         let view = self.view(n);
         View { eye: view.eye + self.built.pose(n).position_cm, ..view }
@@ -204,7 +204,7 @@ impl<'a> Film<'a> {
         Ok((frame, view))
     }
 
-    /// Says in which frame of which motion there is what cannot be drawn, or whose setting it is.
+    /// Adds to the error the frame and the motion with what cannot be drawn, or the setting's line.
     fn in_frame(&self, n: u32, refused: RenderError) -> Error {
         match refused {
             // A scene made in code has no file.
@@ -218,7 +218,7 @@ impl<'a> Film<'a> {
     }
 }
 
-/// A copy of a frame for the blur of the next, in the room of the one before.
+/// Copies a frame for the blur of the next, into the memory of the one before.
 fn kept(before: Option<Strands>, now: &Strands) -> Strands {
     match before {
         Some(mut room) if room.starts() == now.starts() => {
@@ -229,7 +229,7 @@ fn kept(before: Option<Strands>, now: &Strands) -> Strands {
     }
 }
 
-/// The view from a camera turned about the origin.
+/// The view from a camera rotated about the origin.
 fn turned(view: View, turn: Quat) -> View {
     let [eye, right, up, forward] = [view.eye, view.right, view.up, view.forward].map(|v: Vec3| turn * v);
     View { eye, right, up, forward, ..view }

@@ -13,19 +13,19 @@ use crate::error::{Error, Result};
 
 /// Frames in order, from 0 on.
 pub trait FrameSource {
-    /// The strands of frame `n` (head space, cm); frames are asked for in ascending order.
+    /// The strands of frame `n` (head space, cm); call it with ascending frames.
     ///
     /// # Errors
     /// What is wrong with the file that they come from.
     fn frame(&mut self, n: u32) -> Result<&Strands>;
 
-    /// The file that they are read from, where they are.
+    /// The file that they are read from, if any.
     fn file(&self) -> Option<&Path> {
         None
     }
 
-    /// The box about the hair of the frames up to `last`, from the head's origin along the world's axes (cm), where it is
-    /// known without looking at them.
+    /// The box around the hair of the frames up to `last`, from the head's origin along the world's axes (cm), if it is
+    /// known without reading them.
     fn bounds(&self, last: u32) -> Option<[Vec3; 2]> {
         let _ = last;
         None
@@ -72,7 +72,7 @@ impl<S: Stepper> FrameSource for Simulated<'_, S> {
     }
 }
 
-/// What is said of hair whose motion has grown beyond all numbers.
+/// The error about hair whose motion diverged.
 fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
     let neighbours = match &built.dynamics.form {
         Form::Free(free) => free.neighbours.as_ref(),
@@ -87,7 +87,7 @@ fn flown_off(built: &BuiltScene, frame: u32, point: usize) -> Error {
     };
     let scene = built.scene.file().display();
     Error::refused(format!(
-        "{scene}: frame {frame}: the hair diverges beyond finite numbers, point {point} among others; {way_out}"
+        "{scene}: frame {frame}: the hair diverges: point {point} and perhaps others are no longer finite; {way_out}"
     ))
 }
 

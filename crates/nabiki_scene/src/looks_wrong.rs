@@ -1,5 +1,5 @@
-//! What looks wrong before anything is drawn: about the size and place of a head and its hair, a unit forgotten, hair beside
-//! the head or within it, a skull with a hole, a head that leaps; and settings that change nothing beside the others.
+//! What looks wrong before anything is drawn: size and place of a head and its hair, a forgotten unit, hair beside the
+//! head or in it, a skull with a hole, a head that jumps; and settings that change nothing.
 
 mod twice;
 mod unused;
@@ -21,7 +21,7 @@ use crate::size::{mean_half_axis, vector};
 
 pub(crate) use unused::{of_pictures, unused};
 
-/// A skull of which less than this is missing is as good as whole (share of the mean half axis).
+/// A skull that lacks less than this counts as whole (share of the mean half axis).
 const MISSING: f32 = 0.03;
 
 impl BuiltScene {
@@ -35,7 +35,7 @@ fn advice(built: &BuiltScene) -> Vec<Advice> {
     let mut advice: Vec<Advice> =
         built.model.head.openings.iter().filter_map(|hole| open_skull(&built.model.head, hole)).collect();
     let of_head = head_size(built);
-    // Hair that goes by the unit of a wrong head cannot be judged.
+    // Hair that depends on the unit of a wrong head cannot be judged.
     let of_hair = if of_head.is_none() { built.seat().and_then(|seat| of_seat(&seat)) } else { None };
     advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unbound(built)));
     advice.extend(cropped(built));
@@ -48,7 +48,7 @@ fn advice(built: &BuiltScene) -> Vec<Advice> {
     advice
 }
 
-/// Bodies with openings, which count as closed: what is behind them, as within a cap, is inside.
+/// Bodies with openings, which count as closed: the space behind them, as in a cap, is inside.
 fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     built.open_bodies().map(|(i, edges)| {
         let seen = format!(
@@ -59,10 +59,10 @@ fn open_bodies(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     })
 }
 
-/// A camera that sees the head from within, which is next to nothing.
+/// A camera that is inside the head, where it sees almost nothing.
 pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
     let (picture, head) = (&built.scene.picture, &built.model.head);
-    // An automatic one stands outside, and so does an orthographic one.
+    // An automatic one is outside, and so is an orthographic one.
     picture.camera.distance.filter(|_| picture.camera.projection == Projection::Perspective)?;
     let turn = built.pose(0).rotation;
     let mut framed = Bounds::default();
@@ -80,9 +80,9 @@ pub(crate) fn within_the_head(built: &BuiltScene) -> Option<Advice> {
     Some(Advice::new(seen))
 }
 
-/// A head that goes or turns on more suddenly than any blow makes it: a cut of the shot, or samples that are missing.
+/// A head that moves or turns more suddenly than any blow could make it: a cut of the shot, or missing samples.
 fn leap(built: &BuiltScene) -> Option<Advice> {
-    // A hundred times the weight of things (cm/s^2), and a change of the turn from one frame to the next (rad).
+    // A hundred times gravity (cm/s^2), and a change of the turn from one frame to the next (rad).
     const SUDDEN: f32 = 1e5;
     const TURNED: f32 = 1.0;
     let poses = built.given_poses();
@@ -121,11 +121,11 @@ fn untied(built: &BuiltScene) -> Option<Advice> {
     Some(Advice::new(seen))
 }
 
-/// A ponytail whose band no hair comes to.
+/// A ponytail whose band no hair reaches.
 fn unbound(built: &BuiltScene) -> Option<Advice> {
     let style = &built.scene.hair.grown()?.style;
     let tail = style.ponytail?;
-    // Nodes lie a segment apart at the most, and a curl winds its radius and what chance adds about the line that is tied.
+    // Nodes are at most a segment apart, and a curl winds around the tied line with its radius plus the random part.
     let near = tail.radius + built.scene.hair.segment_length + 3.0 * style.curl.radius;
     let strands = built.strands();
     if strands.points().iter().any(|p| p.distance(tail.at) <= near) {
@@ -140,7 +140,7 @@ fn unbound(built: &BuiltScene) -> Option<Advice> {
     Some(Advice::new(seen))
 }
 
-/// Cuts that take off all that they may: the plane has the roots of all hair on its wrong side.
+/// Cuts that remove all they can: the roots of all hair are on the wrong side of the plane.
 fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     let cuts = built.scene.hair.grown().map_or(&[][..], |hair| &hair.style.cuts);
     let strands = built.strands();
@@ -206,7 +206,7 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
         return Some(Advice::new(seen));
     }
     let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
-        // Beside an origin that is given no other facing is sought.
+        // With a given origin no other facing is tried.
         let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };
         let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin fixes that");
         return Some(Advice::new(seen));
@@ -222,7 +222,7 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     Some(Advice { seen, fixes: facing.into_iter().chain(unit).chain(origin).collect() })
 }
 
-/// What is wrong with hair that lies so.
+/// What is wrong with hair that lies like this.
 fn wrong(lie: &Lie) -> String {
     let Lie { off, inside, depth, on_skin } = lie;
     if *on_skin {

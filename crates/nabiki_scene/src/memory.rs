@@ -1,9 +1,9 @@
-//! How much memory there is, and how much work would take: what cannot fit is refused before it begins, since a program that runs
-//! out of memory in the middle of its work is ended without a word.
+//! Available and required memory: what cannot fit is refused before it begins, because the system ends a program that
+//! runs out of memory without a message.
 
 use std::path::{Path, PathBuf};
 
-/// Why so many bytes cannot be had, as a phrase; none where they may be, or where the system does not say how much there is.
+/// Why this many bytes are not available, as a phrase; `None` if they may be, or if the system does not report its memory.
 ///
 /// What is asked for is what is certain to be needed, not all of it: what fits is never refused.
 pub(crate) fn short_of(bytes: u64) -> Option<String> {
@@ -11,7 +11,7 @@ pub(crate) fn short_of(bytes: u64) -> Option<String> {
     Some(format!("needs at least {} of memory, but only {} are available", size(bytes), size(left)))
 }
 
-/// A number of bytes for a person.
+/// A number of bytes for display.
 pub(crate) fn size(bytes: u64) -> String {
     let steps = [(1u64 << 40, "TiB"), (1 << 30, "GiB"), (1 << 20, "MiB"), (1 << 10, "KiB")];
     match steps.into_iter().find(|&(unit, _)| bytes >= unit) {
@@ -20,8 +20,8 @@ pub(crate) fn size(bytes: u64) -> String {
     }
 }
 
-/// Bytes that this program may still take: what the machine has free, and what limits on its group of processes and on itself
-/// leave. None where the system does not say.
+/// Bytes that this program may still use: the free memory of the machine, and what limits on its control group and on
+/// itself leave. `None` if the system does not report it.
 fn available() -> Option<u64> {
     let read = |file: &str| std::fs::read_to_string(file).ok();
     let limits = read("/proc/self/limits").zip(read("/proc/self/status"));
@@ -31,18 +31,18 @@ fn available() -> Option<u64> {
     [of_machine, of_limits, of_groups].into_iter().flatten().min()
 }
 
-/// The number of kB that stands after `name` in a file of the system's.
+/// The number of kB after `name` in a file of the system.
 fn kilobytes(text: &str, name: &str) -> Option<u64> {
     let rest = text.lines().find_map(|line| line.strip_prefix(name))?;
     rest.trim_start_matches(':').split_whitespace().next()?.parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// Of `/proc/meminfo`: what can be had without another program's, and what can be moved to a disk for it.
+/// From `/proc/meminfo`: free memory, without that of other programs, and free swap.
 fn of_machine(meminfo: &str) -> Option<u64> {
     Some(kilobytes(meminfo, "MemAvailable")? + kilobytes(meminfo, "SwapFree").unwrap_or(0))
 }
 
-/// Of `/proc/self/limits` and `/proc/self/status`: what `ulimit -v` and `ulimit -d` leave.
+/// From `/proc/self/limits` and `/proc/self/status`: what `ulimit -v` and `ulimit -d` leave.
 fn of_limits(limits: &str, status: &str) -> Option<u64> {
     let left = |limit: &str, used: &str| {
         let limit = limits.lines().find_map(|line| line.strip_prefix(limit))?;
@@ -53,7 +53,7 @@ fn of_limits(limits: &str, status: &str) -> Option<u64> {
     [left("Max address space", "VmSize"), left("Max data size", "VmData")].into_iter().flatten().min()
 }
 
-/// Of `/proc/self/cgroup`: what the group that it is in leaves, and each that this one is in. `root`: where groups are as folders.
+/// From `/proc/self/cgroup`: what its control group, and each group around that, leaves. `root`: the folder of the groups.
 fn of_groups(groups: &str, root: &Path) -> Option<u64> {
     let left = groups.lines().flat_map(|line| {
         let mut parts = line.splitn(3, ':').skip(1);
@@ -63,7 +63,7 @@ fn of_groups(groups: &str, root: &Path) -> Option<u64> {
             kinds if kinds.split(',').any(|kind| kind == "memory") => (root.join("memory"), &FIRST),
             _ => return Vec::new(),
         };
-        // Within a container the path may be that of the machine outside; its own group is then the root.
+        // In a container the path may be that of the host; its own group is then the root.
         let folder = root.join(path.trim_start_matches('/'));
         let above = folder.ancestors().take_while(|folder| folder.starts_with(&root));
         above.filter_map(|folder| files.left(folder)).collect()
@@ -71,11 +71,11 @@ fn of_groups(groups: &str, root: &Path) -> Option<u64> {
     left.min()
 }
 
-/// What the files of a group are called.
+/// Names of the files of a group.
 struct Files {
     limit: &'static str,
     used: &'static str,
-    /// In `memory.stat`: copies of files, which make room when it is wanted.
+    /// In `memory.stat`: cached files, which yield memory when it is needed.
     copies: [&'static str; 2],
     swap: Option<[&'static str; 2]>,
 }
@@ -107,7 +107,7 @@ impl Files {
             .filter_map(|name| stat.lines().find_map(|line| line.strip_prefix(name))?.trim().parse::<u64>().ok());
         let used = number(self.used)?.saturating_sub(copies.sum());
         let swap = match self.swap {
-            // A group without a limit on it may move all that it has to a disk.
+            // A group without a swap limit may swap all of its memory.
             Some([limit, used]) => read(limit).map_or(0, |text| match text.trim().parse::<u64>() {
                 Ok(limit) => limit.saturating_sub(number(used).unwrap_or(0)),
                 Err(_) => u64::MAX,
@@ -171,7 +171,7 @@ mod tests {
         write(&outer, "memory.swap.max", "max\n");
         assert_eq!(left("0::/work/job\n"), Some(4150 + swap));
         assert_eq!(left("3:cpu:/work/job\n"), None, "another kind of group");
-        // The first version, seen from within a container: the path is that of the machine outside.
+        // Version 1, seen from inside a container: the path is that of the host.
         let first = root.path().join("memory");
         std::fs::create_dir_all(&first).unwrap();
         write(&first, "memory.limit_in_bytes", "900\n");

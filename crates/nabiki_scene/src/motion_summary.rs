@@ -13,8 +13,8 @@ use crate::built::BuiltScene;
 /// Cosine of the angle between two segments from which on their joint is called a kink: 60 degrees.
 const KINK: f32 = 0.5;
 
-/// How far a node may go to and fro from frame to frame before it is said (cm), of hair that feels its neighbours: their pressure has
-/// no bound by which it could be refused.
+/// How far a node may move back and forth from frame to frame without a warning (cm), for hair that feels its
+/// neighbours: their pressure has no bound that could be checked in advance.
 const HOP: f32 = 1.5;
 
 /// Statistics of one frame.
@@ -67,7 +67,7 @@ impl FrameSummary {
     }
 }
 
-/// The bodies besides the head, and where they are in a frame.
+/// The bodies besides the head, with their poses in a frame.
 fn others(built: &BuiltScene, frame: u32) -> Vec<(&Body, Affine3A)> {
     let Form::Free(free) = &built.dynamics.form else { return Vec::new() };
     let head = built.pose(frame);
@@ -82,7 +82,7 @@ fn depth(built: &BuiltScene, others: &[(&Body, Affine3A)], frame: u32, p: Vec3) 
     others.iter().map(in_body).fold(built.model.head.depth(p), f32::max)
 }
 
-/// How far a point goes the way back that it has come.
+/// How far a point goes back the way it came.
 fn hop(earlier: Vec3, before: Vec3, now: Vec3) -> f32 {
     let (came, goes) = (before - earlier, now - before);
     let shorter = came.length().min(goes.length());
@@ -118,9 +118,9 @@ pub struct MotionSummary {
     pub last: FrameSummary,
     /// What nodes may be inside of, in words.
     met: &'static str,
-    /// What may throw hair to and fro, and the way out.
+    /// What may throw hair back and forth, and the remedy.
     blamed: Option<String>,
-    /// The points in the frame before, and in that before this.
+    /// The points of the frame before, and of the one before that.
     before: [Vec<Vec3>; 2],
 }
 
@@ -200,12 +200,12 @@ impl fmt::Display for MotionSummary {
     }
 }
 
-/// What throws hair to and fro where [`BuiltScene::simulation`] does not refuse it, and the way out.
+/// What throws hair back and forth although [`BuiltScene::simulation`] accepts it, and the remedy.
 fn blamed(built: &BuiltScene) -> Option<String> {
     let Form::Free(free) = &built.dynamics.form else { return None };
     let forces = &free.neighbours.as_ref()?.forces;
     let (pressure, step) = (forces.pressure, built.dynamics.motion.time_step);
-    // Cohesion is stepped implicitly, and throws nothing.
+    // Cohesion is implicit, and throws nothing.
     (pressure > 0.0).then(|| format!("lower neighbours.pressure = {pressure}, or motion.time_step = {step}"))
 }
 

@@ -1,4 +1,4 @@
-//! The files that the pictures of a scene go into: a movie, a contact sheet, stills, the field.
+//! The files of a scene's pictures: a movie, a contact sheet, stills, the field.
 
 use std::fs;
 use std::ops::RangeInclusive;
@@ -18,22 +18,22 @@ use crate::scene::{Output, Scene};
 use crate::told::Told;
 use crate::watch::Watch;
 
-/// What is said of any place that a picture cannot use.
+/// The remedy for any place that pictures cannot use.
 pub const WAY_OUT: &str = "choose another folder with --out";
 
 type WriteField = fn(&Path, &FieldPlot) -> Result<(), RenderError>;
 
-/// A folder of numbered stills, in the kinds that a scene asks for.
+/// A folder of numbered stills, in the formats of a scene.
 pub(crate) struct Stills {
     folder: PathBuf,
     output: Output,
-    /// Frames of two films would take each other's place.
+    /// Frames of two films would overwrite each other.
     _held: HeldFolder,
 }
 
 impl Stills {
-    /// Begins, in `folder`, the stills of the frames `wanted`, of so many pixels. What cannot be written is refused, and so is
-    /// a folder that another command writes into, unless both `hold` it beside others.
+    /// Begins the stills of the `wanted` frames, of this size, in `folder`. Refuses what cannot be written, and a
+    /// folder that another command writes to, unless both share its `hold`.
     pub fn begin(
         folder: PathBuf,
         output: &Output,
@@ -70,8 +70,8 @@ impl Stills {
         Ok(())
     }
 
-    /// Removes those after `last` that Nabiki has drawn, so that the folder holds one film. Whatever has another name, is no
-    /// ordinary file, or was made by somebody else, stays.
+    /// Removes those after `last` that Nabiki has drawn, so that the folder holds one film. Files with other names,
+    /// special files, and files by other programs stay.
     pub fn remove_beyond(&self, last: u32, watch: &mut dyn Watch) -> Result<()> {
         let is_file = |file: &Path| fs::symlink_metadata(file).is_ok_and(|about| about.is_file());
         let there = numbered(&self.folder, &self.output).into_iter();
@@ -102,7 +102,7 @@ impl Stills {
     }
 }
 
-/// Refuses a size or frame rate that no movie has, where the scene wants one of these pictures, before there is any work.
+/// Refuses a size or frame rate that no movie has, if the scene wants a movie, before the work starts.
 pub(crate) fn check_movie(scene: &Scene, picture: &Picture) -> Result<()> {
     if !scene.output.movie {
         return Ok(());
@@ -124,7 +124,7 @@ pub(crate) fn stills_folder(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}_frames"))
 }
 
-/// Takes frames one by one, and writes of them what the scene asks for.
+/// Takes frames one by one, and writes the outputs that the scene asks for.
 pub(crate) struct PictureOutputs<'a> {
     built: &'a BuiltScene,
     tone_mapping: ToneMapping,
@@ -137,8 +137,8 @@ pub(crate) struct PictureOutputs<'a> {
 }
 
 impl<'a> PictureOutputs<'a> {
-    /// Begins the files in `folder`, their names beginning with `name`. Whatever could not be written in the end is
-    /// refused now.
+    /// Begins the files in `folder`, with names that begin with `name`. Refuses now whatever could not be written in
+    /// the end.
     pub fn begin(
         built: &'a BuiltScene,
         picture: &Picture,
@@ -186,7 +186,7 @@ impl<'a> PictureOutputs<'a> {
         Ok(Self { built, tone_mapping, movie, sheet: ContactSheet::new(2), sheet_file, on_sheet, stills, fields })
     }
 
-    /// Refuses other results of the same task that would take the place of a picture.
+    /// Refuses other results of the same task that would overwrite a picture.
     pub fn check_apart_from(&self, others: &[&Path]) -> Result<()> {
         let sheet = (!self.on_sheet.is_empty()).then_some(&self.sheet_file);
         let movie = self.movie.iter().map(|(file, _)| file);
@@ -194,7 +194,7 @@ impl<'a> PictureOutputs<'a> {
         place::distinct(&own.chain(others.iter().copied()).collect::<Vec<_>>())
     }
 
-    /// Takes frame `n`, which `view` shows in the space of the forces.
+    /// Takes frame `n`, seen as in `view` in the space of the forces.
     pub fn push(&mut self, n: u32, frame: &Frame, view: &View) -> Result<()> {
         if let Some((_, movie)) = &mut self.movie {
             movie.push(frame, &self.tone_mapping)?;
@@ -214,7 +214,7 @@ impl<'a> PictureOutputs<'a> {
         Ok(())
     }
 
-    /// Completes the files, and removes the frames that a longer run left beyond the last. Returns what was written.
+    /// Completes the files, and removes the frames that a longer run left after the last. Returns what was written.
     pub fn finish(self, watch: &mut dyn Watch) -> Result<Vec<PathBuf>> {
         if let Some(stills) = &self.stills {
             stills.remove_beyond(self.built.frames(), watch)?;
@@ -237,8 +237,8 @@ impl<'a> PictureOutputs<'a> {
     }
 }
 
-/// The files among stills that have the name of a frame of a kind that is written, and its number. What is there is looked
-/// through, rather than every name that will be: frames may be many.
+/// The files among stills with the name of a frame in a written format, and its number. Reads the folder instead of
+/// trying every name, because frames may be many.
 fn numbered(stills: &Path, output: &Output) -> Vec<(u32, PathBuf)> {
     let written = |ending: &str| (output.png_frames && ending == "png") || (output.exr_frames && ending == "exr");
     let frame = |path: PathBuf| {
@@ -249,8 +249,8 @@ fn numbered(stills: &Path, output: &Output) -> Vec<(u32, PathBuf)> {
     fs::read_dir(stills).into_iter().flatten().flatten().filter_map(|there| frame(there.path())).collect()
 }
 
-/// Bytes that the stills of a frame take at least. A bald head before an empty ground takes a twelfth of a byte for a pixel
-/// of a PNG file of 8 bits and two bytes for one of an EXR file; these are somewhat less.
+/// Least bytes of the stills of a frame. A bald head on an empty background takes a twelfth of a byte per pixel in a
+/// PNG file of 8 bits and two bytes in an EXR file; these are somewhat less.
 fn least_bytes(output: &Output, [width, height]: [u32; 2]) -> u64 {
     let pixels = u64::from(width) * u64::from(height);
     let png = if output.png_frames { pixels * u64::from(output.png_bits) / 128 } else { 0 };

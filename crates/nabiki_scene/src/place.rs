@@ -35,7 +35,7 @@ impl Folders {
         if path.is_dir() {
             writable(path).map_err(|e| refused(path, "cannot write in this folder", e, way_out))
         } else {
-            let is = if path.exists() { "a file, not a folder" } else { "a link to nothing" };
+            let is = if path.exists() { "a file, not a folder" } else { "a broken link" };
             Err(Error::place(path, format!("this is {is}; move it away, or {way_out}"), ErrorKind::NotADirectory))
         }
     }
@@ -44,7 +44,7 @@ impl Folders {
 impl Drop for Folders {
     fn drop(&mut self) {
         for folder in self.made.iter().rev() {
-            // One that holds something by now stays, since only empty folders can be removed this way.
+            // Only empty folders can be removed this way, so a folder with files stays.
             let _ = fs::remove_dir(folder);
         }
     }
@@ -110,14 +110,14 @@ pub fn not_inputs(outputs: &[&Path], inputs: &[PathBuf]) -> Result<()> {
     Ok(())
 }
 
-/// From this many bytes on, a result's size is said before it is written.
+/// From this many bytes on, a result's size is reported before it is written.
 const LARGE: u64 = 1 << 30;
 
 /// Reports a large file, and refuses one that does not fit on the disk. `bytes` is its least size.
 pub fn room(path: &Path, bytes: u64, watch: &mut dyn Watch) -> Result<()> {
-    // What a link leads to is what is written.
+    // The target of a link is what is written.
     let target = behind_links(path).unwrap_or_else(|_| path.to_owned());
-    // A file system that does not say what it has left is tried.
+    // If the file system does not report its free space, try.
     if let Ok(left) = nabiki_file::available_bytes(folder_of(&target))
         && bytes > left
     {
@@ -134,15 +134,15 @@ pub fn room(path: &Path, bytes: u64, watch: &mut dyn Watch) -> Result<()> {
     Ok(())
 }
 
-/// Whether two names are, or will be, those of one file.
+/// Whether two names are, or will be, of one file.
 fn is_one(a: &Path, b: &Path) -> bool {
     let places = [a, b].map(real);
     places[0] == places[1] || are_linked(a, b) || are_one_where_capitals_do_not_count(&places)
 }
 
-/// Where a file is or will be, without links on the way.
+/// The place of a file, existing or not, with links resolved.
 fn real(path: &Path) -> PathBuf {
-    // What a link to nothing names is made.
+    // A broken link creates its target.
     let path = behind_links(path).unwrap_or_else(|_| path.to_owned());
     fs::canonicalize(&path).unwrap_or_else(|_| {
         fs::canonicalize(folder_of(&path)).unwrap_or_default().join(path.file_name().unwrap_or_default())
@@ -164,7 +164,7 @@ fn are_linked(a: &Path, b: &Path) -> bool {
     }
 }
 
-/// Whether two files in one folder differ in capitals alone, and its file system takes those for one another.
+/// Whether two files in one folder differ only in case, and the file system ignores case.
 fn are_one_where_capitals_do_not_count([a, b]: &[PathBuf; 2]) -> bool {
     let (Some(first), Some(second)) = (a.file_name().and_then(|n| n.to_str()), b.file_name().and_then(|n| n.to_str()))
     else {
@@ -189,7 +189,7 @@ pub fn free(path: &Path, way_out: &str) -> Result<()> {
     Err(Error::place(path, format!("this is {is}, not a file; move it away, or {way_out}"), system))
 }
 
-/// Refuses a link to a file in a folder that is not there.
+/// Refuses a link to a file in a missing folder.
 fn leads_to_a_folder(path: &Path, way_out: &str) -> Result<()> {
     let target = behind_links(path).map_err(|e| refused(path, "cannot be written there", e, way_out))?;
     let folder = folder_of(&target);
@@ -201,7 +201,7 @@ fn leads_to_a_folder(path: &Path, way_out: &str) -> Result<()> {
     Err(Error::place(path, what, ErrorKind::NotFound))
 }
 
-/// Whether a folder takes files, by putting one there that has no name.
+/// Whether a folder is writable: creates a file without a name there.
 fn writable(folder: &Path) -> std::io::Result<()> {
     tempfile::tempfile_in(folder).map(drop)
 }

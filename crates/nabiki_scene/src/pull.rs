@@ -19,9 +19,9 @@ use nabiki::solve::{Answer, Stop};
 pub use follow::{Follower, Freedom};
 pub use lock::Lock;
 
-/// So long a hand has not moved that rests.
+/// A mouse that has not moved for this long rests.
 const REST: Duration = Duration::from_millis(80);
-/// So many quick steps in a row that gain nothing, and the whole search begins.
+/// The full search begins after this many quick steps in a row without gain.
 const PATIENCE: u32 = 2;
 
 /// The current result of a pull.
@@ -53,17 +53,17 @@ pub struct Pull {
 struct Shared {
     state: Mutex<State>,
     changed: Condvar,
-    /// Whether a search is to give way.
+    /// Whether a search should give way.
     urgent: AtomicBool,
 }
 
 #[derive(Debug, Default)]
 struct State {
-    /// Where the lock should be, if that is new.
+    /// The goal of the lock, if it is new.
     goal: Option<Vec3>,
-    /// When it was said last.
+    /// Time of the last goal.
     moved: Option<Instant>,
-    /// Whether the hand will not move any more.
+    /// Whether the goal is final.
     is_let_go: bool,
     /// Nobody listens any more.
     is_gone: bool,
@@ -71,7 +71,7 @@ struct State {
 }
 
 impl Shared {
-    /// A thread that died while it held the state left it whole: nothing is done under the lock but to move values.
+    /// A thread that died while it held the state left it complete: the lock is only held to move values.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -92,7 +92,7 @@ impl Pull {
             }
         });
         if let Err(e) = spawned {
-            theirs.lock().news = Some(Err(format!("no wind can be looked for: {e}")));
+            theirs.lock().news = Some(Err(format!("cannot search for a wind: {e}")));
         }
         Self { shared }
     }
@@ -125,7 +125,7 @@ impl Drop for Pull {
     }
 }
 
-/// What is to be done next.
+/// The next thing to do.
 enum Next {
     Step,
     Search,
@@ -160,7 +160,7 @@ fn work(mut follower: Follower, shared: &Arc<Shared>, wake: &dyn Fn()) -> Result
     }
 }
 
-/// Waits for something to do. `goal` is the newest; `ended`: nothing nearer is to be found for it.
+/// Waits for something to do. `goal` is the newest; `ended`: nothing nearer will be found for it.
 fn next(shared: &Shared, goal: &mut Vec3, in_vain: &mut u32, ended: &mut bool) -> Next {
     let mut state = shared.lock();
     loop {

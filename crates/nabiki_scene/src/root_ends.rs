@@ -1,4 +1,4 @@
-//! Which end of a strand is its root: hair grows on the skin, and stands off it somewhere else.
+//! Which end of a strand is its root: hair grows on the skin, and stands off it elsewhere.
 //!
 //! Most strands tell by themselves: one of their ends lies on the skin and the other well outside. Where some of a file's are thus
 //! stored tip first, those that do not tell (hair that lies on the skin from end to end) go by how far from the skin the roots of
@@ -11,26 +11,26 @@ use nabiki_io::Placement;
 
 use crate::size::mean_half_axis;
 
-/// Ends of imported hair on the skin lie no farther outside than this, and no deeper inside (shares of the mean half axis).
+/// Ends of imported hair on the skin are no farther outside than this, and no deeper inside (shares of the mean half axis).
 const OUTSIDE: f32 = 0.15;
 const INSIDE: f32 = 0.3;
 
-/// A strand tells which end is its root where the other stands off the skin by so much of its length, by so many times as much as the
-/// root, and by more than heads are unlike the one that the hair was made on (share of the mean half axis).
+/// The root of a strand is clear if the other end stands off the skin by this share of its length, by this multiple of the root's
+/// distance, and by more than heads differ from the one that the hair was made on (share of the mean half axis).
 const STANDS_OFF: f32 = 0.1;
 const TIMES: f32 = 5.0;
 const UNLIKE: f32 = 0.05;
 
-/// Of hair that is in its place this share has an end on the skin at least. Any other tells nothing.
+/// In hair that is in place, at least this share has an end on the skin. Other hair tells nothing.
 const IN_PLACE: f32 = 0.5;
 
-/// A file has strands tip first where so many of those that tell are.
+/// A file stores strands tip first if this many of the clear ones are.
 const SOME: f32 = 0.005;
 
-/// How much sooner a strand that does not tell is taken to be as most are that do, at the most.
+/// The largest preference of unclear strands for the direction of most clear ones.
 const LIKE_OTHERS: f32 = 10.0;
 
-/// The distances of the ends of a strand from the skin, below 0 inside, and its length (all cm).
+/// The distances of the ends of a strand from the skin, negative inside, and its length (all cm).
 struct Ends {
     first: f32,
     last: f32,
@@ -46,7 +46,7 @@ enum Told {
 }
 
 impl Ends {
-    /// The distances of its root and of its tip, where it is as `told`.
+    /// The distances of its root and of its tip, given which end is the root.
     fn of(&self, told: Told) -> (f32, f32) {
         if told == Told::TipFirst { (self.last, self.first) } else { (self.first, self.last) }
     }
@@ -69,7 +69,7 @@ impl Ends {
     }
 }
 
-/// Which of the strands a file has tip first, that lies so; `None` where it has none so.
+/// The strands that a file with this placement stores tip first; `None` if there are none.
 pub(crate) fn tip_first(strands: &Strands, head: &Head, placement: &Placement) -> Option<Vec<bool>> {
     let size = mean_half_axis(&head.ellipsoid);
     let (place, cm) = (placement.head_from_file(), placement.unit.cm);
@@ -86,8 +86,8 @@ pub(crate) fn tip_first(strands: &Strands, head: &Head, placement: &Placement) -
     let count = |told: &[Told], what: Told| told.iter().filter(|&&told| told == what).count() as f32;
     let most =
         if count(&told, Told::TipFirst) > count(&told, Told::RootFirst) { Told::TipFirst } else { Told::RootFirst };
-    // How far from the skin the roots of most are, and how unlike one another. Where the head is not the one that the hair was made
-    // on, a root stands off it easily, and that tells little.
+    // The typical distance of roots from the skin, and its spread. On another head than the one the hair was made on,
+    // roots stand off easily, which tells little.
     let roots = ends.iter().zip(&told).filter(|(_, told)| **told == most).map(|(ends, _)| ends.of(most).0);
     let usual = quantile(roots.clone().collect(), 0.5);
     let unlike = quantile(roots.map(|root| (root - usual).abs()).collect(), 0.9);
@@ -109,7 +109,7 @@ pub(crate) fn tip_first(strands: &Strands, head: &Head, placement: &Placement) -
     Some(ends.iter().zip(&told).map(is_tip_first).collect())
 }
 
-/// The value below which so large a part of all lies; 0 of none.
+/// The value below which this share of all lies; 0 for none.
 fn quantile(mut all: Vec<f32>, part: f32) -> f32 {
     all.sort_by(f32::total_cmp);
     all.get((part * all.len() as f32) as usize).copied().unwrap_or(0.0)

@@ -127,7 +127,7 @@ impl PartialEq for Scene {
     }
 }
 
-/// The tables of the file. Those that several structs share are taken apart by these.
+/// The tables of the file. Those that belong to several structs are split by these.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "a scene")]
 #[derive(Default)]
@@ -176,7 +176,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// What the text says, whether or not it is in its ranges.
+    /// The meaning of the text, whether or not it is in range.
     fn read(text: &str, path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         let (table, origins) = tree::parse(text, path, overrides, Self::whole_tree)?;
         match Self::of_tree(table) {
@@ -185,15 +185,15 @@ impl Scene {
         }
     }
 
-    /// The tree of the defaults, optional tables as well.
+    /// The tree of the defaults, including optional tables.
     fn whole_tree() -> Table {
         Self::default().with_optional_tables().tree().unwrap_or_default()
     }
 
-    /// A tree that is refused, with the place of what is wrong in it.
+    /// A tree that is refused, with the position of the error.
     fn unreadable(refusal: Refusal, origins: &tree::Origins) -> SceneError {
         let (key, mut problem) = refusal.into_parts();
-        // A key that another table has was meant as it is spelled, whatever is spelled like it here.
+        // If another table has this key, it was meant as spelled, whatever is spelled like it here.
         if let Problem::UnknownKey { near, .. } = &mut problem
             && let Some(there) = tree::elsewhere(&Self::whole_tree(), &key)
         {
@@ -202,7 +202,7 @@ impl Scene {
         origins.error(&key, problem)
     }
 
-    /// What a tree of settings says; made in code, as far as anybody can see.
+    /// The scene of a tree of settings, as if made in code.
     fn of_tree(tree: Table) -> Result<Self, Refusal> {
         let tables = Tables::deserialize(Node(&Value::Table(tree)))?;
         let (motion, form) = form::read_motion(&tables.motion).map_err(|e| e.below("motion"))?;
@@ -262,7 +262,7 @@ impl Scene {
         self.output.check_frames(self.motion.frames)
     }
 
-    /// Refuses a wind given by its speed where nothing is carried by the air.
+    /// Refuses a wind given by its speed if no air carries the hair.
     fn check_speeds(&self) -> Result<(), SettingError> {
         let mut speeds = self.field.force.iter().enumerate().filter_map(|(j, force)| Some((j, force.speed?)));
         let Some((j, speed)) = speeds.next() else { return Ok(()) };
@@ -280,7 +280,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What overrides took out of the file without saying so: a line each.
+    /// Keys of the file that an override removed, a line each.
     pub(crate) fn replaced(&self) -> impl Iterator<Item = String> {
         self.origins.replaced()
     }
@@ -368,7 +368,7 @@ impl Scene {
         })?;
         edit::apply(&mut document, &held, &wanted, &defaults);
         let text = document.to_string();
-        // The editor of TOML knows but one end of a line.
+        // The TOML editor knows only one kind of line ending.
         let of_two = self.text.contains("\r\n");
         Ok(if of_two { text.replace("\r\n", "\n").replace('\n', "\r\n") } else { text })
     }
@@ -390,19 +390,19 @@ impl Scene {
     /// # Errors
     /// As for [`save`](Self::save), except errors of the disk.
     pub fn text_to_be(&self, path: &Path) -> Result<String, SceneError> {
-        // First, since it knows the lines that the user has before him.
+        // First, because it knows the lines that the user sees.
         self.check().map_err(|refused| self.refusal(refused))?;
         let text = self.to_toml()?;
         kind::check_scene_to_be(path, &text).map_err(|e| file_error(path, e))?;
         if text.len() as u64 > input::MOST_SCENE_BYTES {
-            let line = format!("would be {} bytes long: a scene has at most {}", text.len(), input::MOST_SCENE_BYTES);
+            let line = format!("would be {} bytes: a scene may have at most {}", text.len(), input::MOST_SCENE_BYTES);
             return Err(file_error(path, nabiki_io::Error::new(line)));
         }
         Self::parse(&text, path, &[])?;
         Ok(text)
     }
 
-    /// The settings as the tree that they are read from.
+    /// The settings as the tree from which they are read.
     fn tree(&self) -> Result<Table, Unwritable> {
         let mut tree = Table::new();
         tree.insert("head".to_owned(), self.head.table()?.into());
@@ -425,12 +425,12 @@ impl Scene {
         Ok(tree)
     }
 
-    /// The same sources with all else at its default.
+    /// The same sources with everything else at its default.
     fn with_defaults(&self) -> Self {
         Self { head: self.head.with_defaults(), hair: self.hair.with_defaults(), ..Self::default() }
     }
 
-    /// The same with every optional table there, at its own defaults.
+    /// The same with every optional table, at its own defaults.
     fn with_optional_tables(mut self) -> Self {
         self.head.motion = Some(MotionSource::default());
         self.field = self.field.with_optional_tables();
@@ -441,7 +441,7 @@ impl Scene {
     }
 }
 
-/// A path in the scene that the file `scene` is, relative to that.
+/// A path in the scene of the file `scene`, relative to that.
 pub(crate) fn resolved(scene: &Path, path: &Path) -> PathBuf {
     scene.parent().unwrap_or(Path::new("")).join(path)
 }
@@ -458,7 +458,7 @@ pub fn write_scene(path: &Path, text: &str) -> Result<(), SceneError> {
     };
     write().map_err(|e: std::io::Error| {
         let mut refused = nabiki_io::Error::from(e);
-        // The file need not be there, only where it goes.
+        // The file need not exist, only its folder.
         if refused.system() == Some(std::io::ErrorKind::NotFound) {
             refused.what = "there is no such folder".to_owned();
         }

@@ -211,7 +211,7 @@ fn reference(table: &Table) -> (&'static str, Datum) {
     ("$ref", Datum::Text(format!("#/$defs/{}", table.name)))
 }
 
-/// Puts a struct among the definitions, after those that it holds.
+/// Adds a struct to the definitions, after those that it contains.
 fn define(table: &Table, shared: &'static [Setting], defs: &mut Vec<(&'static str, Datum)>) {
     if defs.iter().any(|(name, _)| *name == table.name) {
         return;

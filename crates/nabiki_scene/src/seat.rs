@@ -1,8 +1,8 @@
 //! Where imported hair sits on a head: how well it lies there, and where it would lie better.
 //!
-//! All is told by an even choice of the file's own strands, whatever number of them is shown, and what is found depends on
-//! the file, the head, the axes and the unit alone; a facing is sought only where no origin is given. So what is advised, once
-//! followed, is not advised away.
+//! Everything is judged by an even choice of the file's own strands, however many are shown. The result depends only on the
+//! file, the head, the axes and the unit; a facing is tried only if no origin is given. So advice that was followed is not
+//! reversed later.
 
 use std::path::Path;
 
@@ -15,31 +15,31 @@ use crate::root_ends;
 use crate::scene::{ImportedHair, RootEnd};
 use crate::size::{decimal, mean_half_axis, middle, spread, unit_for};
 
-/// Roots whose median lies farther than this from the skin do not grow on it (share of the mean half axis).
+/// If the roots' median distance from the skin exceeds this, they do not grow on it (share of the mean half axis).
 const AFLOAT: f32 = 0.15;
 
-/// Hair of which more than this share of the points is inside the head was made for another. (Hair that fits has 0.2 to
-/// 1.5 %, as its lowest layers meet a skin between whose vertices they were modelled.)
+/// Hair with more than this share of points inside the head was made for another. (Hair that fits has 0.2 to 1.5 %,
+/// because its lowest layers were modelled on a skin between whose vertices they now lie.)
 const INSIDE: f32 = 0.05;
 
-/// Strands of a file by which it is judged.
+/// Number of strands by which a file is judged.
 const JUDGED: usize = 600;
 
-/// Roots by which a place is found.
+/// Number of roots by which a place is found.
 const FITTED: usize = 200;
 
 /// Root mean square distance of a scalp's roots from their middle, in mean half axes.
 const SPREAD: f32 = 0.95;
 
-/// Spreads that may be a scalp's, or a good part of one, in mean half axes.
+/// Spreads that a scalp, or a large part of one, may have, in mean half axes.
 const SPREADS: std::ops::RangeInclusive<f32> = 0.5..=2.0;
 
-/// A unit that a file states is wrong only if it is off by more than this: programs name another's, and hair that lies a little deep is to
-/// keep its own.
+/// A unit in a file counts as wrong only beyond this factor: some programs name a wrong one, and hair that lies a
+/// little too deep should keep its unit.
 const MISNAMED: f32 = 2.0;
 
-/// How the hair's file lies in head space: as the head's file does, but for what the scene or the file itself says. Of two files with
-/// other up axes each is taken for the other, tipped up.
+/// The placement of the hair's file in head space: like the head's file, except for what the scene or the file itself
+/// declares. Two files with different up axes are tipped accordingly.
 pub(crate) fn hair_placement(settings: &ImportedHair, head: &Placement, declared: DeclaredSpace) -> Placement {
     let up = settings.up.or(declared.up).unwrap_or(head.up);
     let unmoved = Placement {
@@ -71,7 +71,7 @@ pub(crate) struct Lie {
 }
 
 impl Lie {
-    /// Whether the hair may be this head's.
+    /// Whether the hair may belong to this head.
     pub fn is_good(&self) -> bool {
         self.on_skin && self.inside <= INSIDE
     }
@@ -88,7 +88,7 @@ impl Lie {
     }
 }
 
-/// Settings of `[hair]` that would seat it better; `None` leaves one as it is.
+/// Settings of `[hair]` that would seat it better; `None` means no change.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Mended {
     /// `hair.facing`.
@@ -99,17 +99,17 @@ pub(crate) struct Mended {
     pub origin: Option<Vec3>,
 }
 
-/// What hair goes by that its file says of its space: of the head's own file, nothing but what the head has.
+/// What the hair's file declares; for the head's own file, only what the head has.
 pub(crate) fn heeded(declared: DeclaredSpace, of_head: bool) -> DeclaredSpace {
     if of_head { DeclaredSpace::default() } else { declared }
 }
 
-/// Whether two names are of one file.
+/// Whether two names refer to one file.
 pub(crate) fn is_one_file(a: &Path, b: &Path) -> bool {
     a == b || a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
 }
 
-/// An even choice of a file's strands, as they are in its world.
+/// An even choice of a file's strands, in the file's world.
 pub(crate) fn judged(read: &InPlace) -> Strands {
     let all = &read.hair.strands;
     let step = all.len().div_ceil(JUDGED).max(1);
@@ -120,38 +120,38 @@ pub(crate) fn judged(read: &InPlace) -> Strands {
 /// Hair of a file on a head.
 pub(crate) struct Seat<'a> {
     pub head: &'a Head,
-    /// As [`judged`] chooses them (the file's unit and axes).
+    /// Chosen by [`judged`] (the file's unit and axes).
     pub strands: &'a Strands,
-    /// What the scene says of the file.
+    /// The scene's settings for the file.
     pub settings: &'a ImportedHair,
     pub head_placement: &'a Placement,
-    /// What the file says itself; nothing where it is the head's as well, whose place it has then.
+    /// What the file itself declares; nothing if it is also the head's file, and then has the head's placement.
     pub declared: DeclaredSpace,
-    /// Whether it is the head's file as well.
+    /// Whether it is also the head's file.
     pub of_head: bool,
-    /// Which of the strands' ends lie on the skin, where it is not known yet how the file lies.
+    /// Which ends of the strands are on the skin, before the placement of the file is known.
     pub ends: LikelyRoots,
 }
 
-/// Ends of strands among which roots are.
+/// The ends of strands that may be roots.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum LikelyRoots {
-    /// The first of each.
+    /// The first point of each.
     #[default]
     First,
-    /// The last of each.
+    /// The last point of each.
     Last,
-    /// One of the two.
+    /// Either.
     Either,
 }
 
 impl Seat<'_> {
-    /// How the hair lies as the scene has it.
+    /// How the hair lies with the scene's settings.
     pub fn lie(&self) -> Lie {
         self.lie_at(&self.placement(&Mended::default()))
     }
 
-    /// Settings by which hair of the head's own file has another place there than the head.
+    /// Settings that give hair from the head's own file another placement than the head.
     pub fn astray(&self) -> Vec<&'static str> {
         if !self.of_head || self.placement(&Mended::default()) == *self.head_placement {
             return Vec::new();
@@ -166,12 +166,13 @@ impl Seat<'_> {
         given.into_iter().filter(|(given, _)| *given).map(|(_, key)| key).collect()
     }
 
-    /// Whether the scene gives the place of the head in the file.
+    /// Whether the scene sets the place of the head in the file.
     pub fn has_origin(&self) -> bool {
         self.settings.origin.is_some()
     }
 
-    /// What would make it lie clearly better, and how it would lie then. Hair of the head's own file is where it is.
+    /// Settings with which it would lie clearly better, and how it would lie then. Hair from the head's own file is in
+    /// its place.
     pub fn mended(&self) -> Option<(Mended, Lie)> {
         let now = self.lie();
         if now.is_good() || self.of_head {
@@ -181,7 +182,7 @@ impl Seat<'_> {
         if self.settings.root != RootEnd::Skin || best.as_ref().is_some_and(|(_, then)| then.is_good()) {
             return best;
         }
-        // Its file may have them tip first.
+        // The file may have strands tip first.
         let others = [LikelyRoots::Last, LikelyRoots::Either].into_iter();
         let mut others = others.filter_map(|ends| Seat { ends, ..*self }.mended_from(now));
         others.find(|(_, then)| then.is_good()).or(best)
@@ -198,7 +199,7 @@ impl Seat<'_> {
         then.is_better_than(&now).then_some((mended, then))
     }
 
-    /// As if the file named no unit, if that makes it lie well: programs name one that is not theirs.
+    /// As if the file named no unit, if it lies well then: some programs name a wrong one.
     fn in_another_unit(&self, now: &Lie) -> Option<(Mended, Lie)> {
         if self.unit_is_open() || self.settings.unit.is_some() {
             return None;
@@ -255,9 +256,9 @@ impl Seat<'_> {
         Lie { off, inside: inside as f32 / points.max(1) as f32, depth, on_skin }
     }
 
-    /// Another facing, if that alone, or with a unit and an origin, makes it lie well, and as it faces now these do not.
+    /// Another facing if it lies well with it, alone or with a unit and an origin, and does not lie well now.
     fn turned(&self, now: &Lie) -> Option<Mended> {
-        // An origin that is given was found for the facing beside it.
+        // A given origin belongs to the given facing.
         if self.has_origin() {
             return None;
         }
@@ -268,9 +269,9 @@ impl Seat<'_> {
         }
         let around = Axis::ALL.into_iter().filter(|axis| axis.is_across(placement.up) && *axis != placement.facing);
         let turned = || around.clone().map(|axis| Mended { facing: Some(axis), ..Mended::default() });
-        // Hair is about as long to all sides: what is little better may be so by chance.
+        // Hair is about equally long on all sides, so a small improvement may be chance.
         let least = 0.5 * if now.on_skin { now.inside.min(as_it_faces.inside) } else { as_it_faces.inside };
-        // Hair that was but moved aside fits its head as it faces, whatever share of it lies inside: turned it fits less well.
+        // Hair that was only moved aside still fits its head best as it faces, however much of it is inside.
         let lies_well = |mended: &Mended| {
             let lie = self.lie_at(&self.placement(mended));
             lie.is_good() && lie.inside < least && lie.off <= as_it_faces.off
@@ -278,7 +279,7 @@ impl Seat<'_> {
         turned().find(lies_well).or_else(|| turned().map(|mended| self.moved(mended)).find(lies_well))
     }
 
-    /// With the unit by how far the roots spread, where no unit is stated and the scene's makes it no scalp; then with the origin.
+    /// Tries the unit by the spread of the roots, if none is stated and the scene's gives no scalp; then with the origin.
     fn moved(&self, mut best: Mended) -> Mended {
         let size = mean_half_axis(&self.head.ellipsoid);
         let spread = spread(&self.roots());
@@ -296,7 +297,7 @@ impl Seat<'_> {
         self.declared.unit.is_none()
     }
 
-    /// Moved so, and then with a unit a little larger, if too much of the hair is inside.
+    /// Moved like this, and with a slightly larger unit if too much of the hair is inside.
     fn best(&self) -> Mended {
         let best = self.moved(Mended::default());
         let lie = self.lie_at(&self.placement(&best));
@@ -319,8 +320,8 @@ impl Seat<'_> {
         }
     }
 
-    /// The point of the file to put at the origin, so that the roots come as near to the skin as they can: the least sum of
-    /// distances, from several places of the scalp on.
+    /// The origin that brings the roots nearest to the skin, in the file's unit: the least sum of distances, from
+    /// several starting places on the scalp.
     fn found_origin(&self, placement: &Placement) -> Vec3 {
         let turn = Placement { origin: Vec3::ZERO, ..*placement }.head_from_file();
         let roots: Vec<Vec3> = self.roots().iter().map(|&root| turn.transform_point3(root)).collect();
@@ -331,7 +332,7 @@ impl Seat<'_> {
         for start in starts(&self.head.ellipsoid) {
             let shift = settled(self.head, &some, start - middle(&roots));
             let off = sum(shift);
-            // The first stands for a whole scalp, and gives way to what is clearly better.
+            // The first assumes a whole scalp; a clearly better one replaces it.
             if best.is_none_or(|(least, _)| off < 0.8 * least) {
                 best = Some((off, shift));
             }
@@ -340,7 +341,7 @@ impl Seat<'_> {
         self.rounded(turn.inverse().transform_point3(-shift), placement.unit)
     }
 
-    /// The least enlargement about the middle of the head that brings the hair out of it and leaves its roots on the skin.
+    /// The least enlargement about the middle of the head that brings the hair out of it and keeps its roots on the skin.
     fn enlarged(&self, placement: &Placement) -> Option<Mended> {
         let center = self.head.ellipsoid.center;
         let middle = placement.file_from_head().transform_point3(center);
@@ -354,22 +355,22 @@ impl Seat<'_> {
         })
     }
 
-    /// A point of the file as a scene spells it.
+    /// A point of the file as written in a scene.
     fn rounded(&self, p: Vec3, unit: Unit) -> Vec3 {
         rounded(p, mean_half_axis(&self.head.ellipsoid) / unit.cm)
     }
 }
 
-/// Where the middle of some roots may be: of a whole scalp, of its top, its back, its sides.
+/// Candidates for the middle of some roots: of a whole scalp, of its top, its back, its sides.
 fn starts(ellipsoid: &Ellipsoid) -> [Vec3; 5] {
     [[-0.2, 0.35, 0.0], [0.0, 0.9, 0.0], [-0.8, 0.3, 0.0], [-0.1, 0.4, 0.8], [-0.1, 0.4, -0.8]]
         .map(|[x, y, z]| ellipsoid.center + ellipsoid.half_axes * Vec3::new(x, y, z))
 }
 
-/// The shift near `shift` that makes the sum of the points' distances to the skin least: Gauss and Newton's steps, each
-/// point weighted by the inverse of its distance.
+/// The shift near `shift` with the least sum of distances to the skin: Gauss-Newton steps, with each point weighted by
+/// the inverse of its distance.
 fn settled(head: &Head, points: &[Vec3], mut shift: Vec3) -> Vec3 {
-    // Points this near to the skin count alike (share of the mean half axis).
+    // Points this near to the skin have equal weight (share of the mean half axis).
     const NEAR: f32 = 0.01;
     const STEPS: usize = 40;
     let size = mean_half_axis(&head.ellipsoid);
@@ -393,13 +394,13 @@ fn settled(head: &Head, points: &[Vec3], mut shift: Vec3) -> Vec3 {
     shift
 }
 
-/// A point of a file to a thousandth of the size of its head at least (the file's unit): finer than any guess.
+/// A point of a file, rounded to a thousandth of the size of its head (the file's unit): finer than any guess.
 pub(crate) fn rounded(p: Vec3, size: f32) -> Vec3 {
     let decimals = (3.0 - size.log10()).ceil().clamp(0.0, 9.0) as usize;
     Vec3::from(p.to_array().map(|x| format!("{x:.decimals$}").parse::<f32>().unwrap_or(x) + 0.0))
 }
 
-/// Centimetres of a unit as a scene spells it.
+/// Centimetres of a unit as written in a scene.
 pub(crate) fn centimetres(text: &str) -> f32 {
     text.trim_matches('"').parse().map_or(1.0, |unit: Unit| unit.cm)
 }

@@ -26,7 +26,7 @@ impl BuiltScene {
     pub fn problem(&self, unknowns: Vec<Unknown>, wishes: Vec<Wish>) -> Problem {
         let field = &self.scene.field;
         let poses = self.given_poses();
-        // The solver has no further frames.
+        // The solver has no frames after these.
         let place = FieldPlace { poses: poses.clone().into(), ..self.forces.inputs.place.clone() };
         Problem {
             hair: self.strands().clone(),
@@ -59,14 +59,14 @@ impl Scene {
             self.free.settle = built.scene.free.settle.clone();
             self.free.accept(&free.form, stiffness, settle);
             if *settle != free.form.settle {
-                // As fast a wind would be of another strength.
+                // A wind at this speed would have another strength.
                 self.field.force = keyframes.iter().copied().map(ForceSettings::from).collect();
             }
         }
     }
 }
 
-/// The fields of a scene about any wind.
+/// The fields of a scene around any wind.
 #[derive(Debug)]
 struct SceneSurroundings {
     field: FieldSettings,

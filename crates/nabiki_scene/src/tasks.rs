@@ -37,7 +37,7 @@ use crate::told::{SceneSummary, SwingTable, Told};
 use crate::watch::Watch;
 use nabiki_io::shell;
 
-/// Builds a scene, and says before which files are read for it, and then what of the hair's is not.
+/// Builds a scene. Reports before that which files are read, and after it what of the hair's file is not used.
 fn build(scene: Scene, shown: Shown, watch: &mut dyn Watch) -> Result<BuiltScene> {
     reading(scene.inputs().split_off(1), watch);
     let built = scene.build(shown)?;
@@ -59,31 +59,31 @@ fn unread_hair(built: &BuiltScene, watch: &mut dyn Watch) {
     }
 }
 
-/// Says which files are about to be read, if any.
+/// Reports which files are about to be read, if any.
 fn reading(files: Vec<PathBuf>, watch: &mut dyn Watch) {
     if !files.is_empty() {
         watch.told(Told::Reading(files));
     }
 }
 
-/// Tells what there is to move, and what looks wrong about it.
+/// Reports the scene's summary, and what looks wrong about it.
 fn present(built: &BuiltScene, watch: &mut dyn Watch) {
     watch.told(Told::Scene(SceneSummary::of(built)));
     advise(built.advice(), watch);
 }
 
-/// Tells what deserves a look.
+/// Reports what looks wrong.
 fn advise(advice: impl IntoIterator<Item = Advice>, watch: &mut dyn Watch) {
     advice.into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
 }
 
-/// The same, and how long its swings will take.
+/// The same, and the periods of its swings.
 fn introduce(built: &BuiltScene, watch: &mut dyn Watch) {
     present(built, watch);
     watch.told(Told::Swing(SwingTable::of(built)));
 }
 
-/// Says what of a hair file is left out or not obeyed, as much as fits a part of a screen.
+/// Reports unused data of a hair file, as much as fits part of a screen.
 fn unread(file: &Path, all: &[String], watch: &mut dyn Watch) {
     const MOST_SAID: usize = 12;
     let said = if all.len() > MOST_SAID { &all[..MOST_SAID - 1] } else { all };
@@ -93,12 +93,12 @@ fn unread(file: &Path, all: &[String], watch: &mut dyn Watch) {
     said.iter().cloned().chain(more).for_each(|what| watch.told(Told::Unread { file: file.to_owned(), what }));
 }
 
-/// Says what a file cannot hold of the hair.
+/// Reports what a file cannot store of the hair.
 pub(crate) fn lost(file: &Path, losses: Vec<String>, watch: &mut dyn Watch) {
     losses.into_iter().for_each(|what| watch.told(Told::Lost { file: file.to_owned(), what }));
 }
 
-/// Says which files now exist.
+/// Reports which files now exist.
 fn wrote(files: Vec<PathBuf>, watch: &mut dyn Watch) {
     files.into_iter().for_each(|file| watch.told(Told::Wrote { file, holds: None }));
 }

@@ -68,7 +68,7 @@ lift_degrees = { top = 18.0, sides = 15.0, back = 12.0 }
 comb = { away = 1.0, sweep = [-0.3, 0.0, 0.0], off_face = 2.8, decay = 3.5 }
 ";
 
-/// Settings of a table at their defaults, a line each with what it does.
+/// Settings of a table at their defaults, one line each with its description.
 fn lines(table: &str, keys: &[&str]) -> String {
     let line = |key: &&str| {
         let found = schema::find(&format!("{table}.{key}").into());
@@ -82,7 +82,7 @@ fn lines(table: &str, keys: &[&str]) -> String {
     keys.iter().filter_map(line).collect()
 }
 
-/// Hair as it is in life, in true timing at any frame rate: real hair that is styled a little at its root.
+/// Realistic hair in true timing at any frame rate: real hair, styled a little at its root.
 const FREE: &str = "\
 stiffness = [\"6 cm\", \"4.5 cm\"]   # the length over which hair bends under its own weight, at root and tip; real hair has 4.5 cm
 hold = \"0.3 g\"              # hair spray: returns hair to its place, as a share of its weight
@@ -97,7 +97,7 @@ fn rest(Shot { frames, rate }: Shot) -> String {
     let variation = lines("free.variation", &["air", "flutter", "flyaways"]);
     let neighbours: String =
         lines("neighbours", &["pressure", "cohesion"]).lines().map(|line| format!("# {line}\n")).collect();
-    // Intervals have a frame at least.
+    // Intervals have at least one frame.
     let calm = (frames / 16).max(1);
     let half = (frames * 7 / 16).max(calm + 1);
     let last = frames.max(half + 1);
@@ -146,16 +146,16 @@ camera = {{ azimuth = 50.0, elevation = 4.0 }}
     )
 }
 
-/// A head file, looked at.
+/// A head file, examined.
 struct Looked {
     head: Head,
     placement: Placement,
     declared: DeclaredSpace,
-    /// Groups of the file that are kept; all if empty.
+    /// Groups of the file to keep; all if empty.
     groups: Vec<String>,
     /// The unit, in TOML.
     unit_text: String,
-    /// Whether the ellipsoid could not be fitted, and was drawn about the mesh instead.
+    /// Whether the ellipsoid could not be fitted, and encloses the mesh instead.
     boxed: Option<Ellipsoid>,
     guesses: Vec<String>,
 }
@@ -200,7 +200,7 @@ fn look_at_head(file: &Path, groups: &[String], strands: Option<&Strands>) -> Re
     let declared = declared_space(file)?;
     let mut guesses = Vec::new();
     let Chosen { mesh, groups, up, skull } = chosen(file, groups, &declared, &mut guesses)?;
-    // Hair of another head, or in another unit, says nothing of this one.
+    // Hair of another head, or in another unit, says nothing about this one.
     let roots = strands.map(|strands| likely_roots(strands, &mesh)).filter(|roots| grow_on(roots, &mesh));
     let roots = roots.as_deref();
     let front = front_of(up);
@@ -209,7 +209,7 @@ fn look_at_head(file: &Path, groups: &[String], strands: Option<&Strands>) -> Re
     let how = if facing != front { "away from most of the roots" } else { "as most files have it" };
     guesses.push(format!("head.facing = \"{facing}\", {how}"));
     let placed = Placement { facing, ..as_is };
-    // The fit does not know the unit, so that the unit can be told by the fit.
+    // The fit does not depend on the unit, so it can determine the unit.
     let fitted = if facing == front { skull } else { skull_of(&mesh, &placed) };
     let boxed = fitted.is_none();
     let ellipsoid = fitted.unwrap_or_else(|| about(roots.unwrap_or(&mesh.positions), &placed));
@@ -236,7 +236,7 @@ fn look_at_head(file: &Path, groups: &[String], strands: Option<&Strands>) -> Re
     Ok(Looked { head, placement, declared, groups, unit_text, boxed: boxed.then_some(centred), guesses })
 }
 
-/// The part of a file that is taken for the head.
+/// The part of a file that is taken as the head.
 struct Chosen {
     mesh: Mesh,
     groups: Vec<String>,
@@ -245,10 +245,10 @@ struct Chosen {
     skull: Option<Ellipsoid>,
 }
 
-/// What the file holds, or of its groups the largest that has a skull where all of it together has none: files of bodies
-/// hold clothes and helpers beside them.
+/// The whole file, or the largest of its groups with a skull if the whole has none: files of bodies also hold clothes
+/// and helpers.
 fn chosen(file: &Path, groups: &[String], declared: &DeclaredSpace, guesses: &mut Vec<String>) -> Result<Chosen> {
-    // More than these have never been a body among other things.
+    // Files with more groups than this have never been a body among other things.
     const MOST_TRIED: usize = 5;
     let look = |groups: Vec<String>| -> Result<Chosen> {
         let mesh = mesh::read(file, &groups)?;
@@ -282,7 +282,7 @@ fn chosen(file: &Path, groups: &[String], declared: &DeclaredSpace, guesses: &mu
     Ok(found)
 }
 
-/// Where the face of most files looks that stand along `up`.
+/// The facing of most files whose up axis is `up`.
 fn front_of(up: Axis) -> Axis {
     if matches!(up, Axis::PlusZ) { Axis::MinusY } else { Axis::PlusZ }
 }
@@ -294,7 +294,7 @@ fn skull_of(mesh: &Mesh, placement: &Placement) -> Option<Ellipsoid> {
     Head::fit(&Mesh { positions, ..mesh.clone() }).ok()
 }
 
-/// The unit of a file that states none, in TOML, and how it was told: by its skull, or else by how tall it is.
+/// The unit of a file that declares none, in TOML, and how it was found: by its skull, or else by its height.
 fn unit_of(mesh: &Mesh, ellipsoid: &Ellipsoid, boxed: bool, up: Axis) -> Result<(String, String)> {
     // Units from a micrometre to a kilometre (cm).
     const UNITS: std::ops::RangeInclusive<f32> = 1e-4..=1e5;
@@ -319,7 +319,7 @@ fn unit_of(mesh: &Mesh, ellipsoid: &Ellipsoid, boxed: bool, up: Axis) -> Result<
     })
 }
 
-/// The unit of a mesh without a skull, in TOML, and how it was told.
+/// The unit of a mesh without a skull, in TOML, and how it was found.
 fn by_height(mesh: &Mesh, up: Axis) -> (String, String) {
     let (low, high) = bounds(&mesh.positions);
     let height = (high - low).dot(up.vector().as_vec3()).abs();
@@ -333,10 +333,10 @@ fn by_height(mesh: &Mesh, up: Axis) -> (String, String) {
     }
 }
 
-/// Roots by which it is judged whether they lie on a mesh.
+/// Number of roots to check whether they are on a mesh.
 const JUDGED: usize = 100;
 
-/// Whether roots lie on a mesh: half of them near one of its vertices.
+/// Whether roots are on a mesh: half of them are near one of its vertices.
 fn grow_on(roots: &[Vec3], mesh: &Mesh) -> bool {
     let step = roots.len().div_ceil(JUDGED).max(1);
     let judged: Vec<Vec3> = roots.iter().copied().step_by(step).collect();
@@ -344,9 +344,10 @@ fn grow_on(roots: &[Vec3], mesh: &Mesh) -> bool {
     2 * judged.iter().filter(|root| is_near(**root, mesh, within)).count() >= judged.len()
 }
 
-/// The first points of strands, or some of their roots, where many have the last point and not the first on the mesh.
+/// The first points of strands, or a sample of the actual roots if many strands have their last point, and not the
+/// first, on the mesh.
 fn likely_roots(strands: &Strands, mesh: &Mesh) -> Vec<Vec3> {
-    // Fewer may lie on the skin with their tips, as on a shoulder.
+    // A smaller number may touch the skin with their tips, as on a shoulder.
     const MANY: f32 = 0.2;
     let firsts: Vec<Vec3> = strands.iter().map(|strand| strand[0]).collect();
     let within = near(&firsts);
@@ -361,8 +362,8 @@ fn likely_roots(strands: &Strands, mesh: &Mesh) -> Vec<Vec3> {
     if count as f32 >= MANY * roots.len() as f32 && count > 0 { roots } else { firsts }
 }
 
-/// How near to a vertex what is on a mesh lies, by how far roots spread: a coarse mesh has vertices a tenth of a scalp apart, and its
-/// roots lie between them.
+/// Largest distance from a vertex on a mesh, relative to the spread of the roots: in a coarse mesh, vertices are a
+/// tenth of a scalp apart, with roots between them.
 fn near(roots: &[Vec3]) -> f32 {
     0.15 * spread(roots)
 }
@@ -371,11 +372,11 @@ fn is_near(place: Vec3, mesh: &Mesh, within: f32) -> bool {
     mesh.positions.iter().any(|p| p.distance_squared(place) <= within * within)
 }
 
-/// The axis along which a mesh that does not say it stands: z where it is clearly taller that way, else y.
+/// The up axis of a mesh that does not declare it: z if it is clearly taller that way, else y.
 fn up_of(mesh: &Mesh) -> Axis {
     let (low, high) = bounds(&mesh.positions);
     let size = high - low;
-    // A head is as deep as it is high, a bust or body is not.
+    // A head is as deep as it is high; a bust or body is not.
     if size.z > 1.15 * size.y { Axis::PlusZ } else { Axis::PlusY }
 }
 
@@ -383,7 +384,8 @@ fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
     points.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
-/// Hair grows on top and behind: the face looks away from the middle of the roots, seen from that of the upper mesh.
+/// Hair grows on top and behind: seen from the middle of the upper mesh, the face looks away from the middle of the
+/// roots.
 fn facing_of(roots: &[Vec3], mesh: &Mesh, placement: &Placement) -> Option<Axis> {
     let up = placement.up.vector().as_vec3();
     let (low, high) = bounds(roots);
@@ -396,14 +398,14 @@ fn facing_of(roots: &[Vec3], mesh: &Mesh, placement: &Placement) -> Option<Axis>
     let (low, high) = bounds(&around);
     let off = middle(roots) - 0.5 * (low + high);
     let level = off - off.dot(up) * up;
-    // Heads are symmetric: sideways the roots are off by little.
+    // Heads are symmetric, so the roots are hardly off sideways.
     let clear = level.length() > 0.05 * (high - low).length();
     let away = |axis: Axis| axis.vector().as_vec3().dot(-level);
     let best = Axis::ALL.into_iter().filter(|axis| axis.is_across(placement.up));
     best.max_by(|a, b| away(*a).total_cmp(&away(*b))).filter(|_| clear)
 }
 
-/// An ellipsoid in the box of points, where there is no skull (placed, in the file's unit).
+/// An ellipsoid in the bounding box, if there is no skull (placed, in the file's unit).
 fn about(points: &[Vec3], placement: &Placement) -> Ellipsoid {
     let turn = placement.head_from_file();
     let placed: Vec<Vec3> = points.iter().map(|&p| turn.transform_point3(p)).collect();
@@ -412,7 +414,7 @@ fn about(points: &[Vec3], placement: &Placement) -> Ellipsoid {
     Ellipsoid { center: 0.5 * (low + high), half_axes: half_axes.max(Vec3::splat(half_axes.max_element() / 3.0)) }
 }
 
-/// How long a shot is, and its frames a second.
+/// Length of a shot, and its frame rate.
 #[derive(Clone, Copy)]
 struct Shot {
     frames: usize,
@@ -425,20 +427,20 @@ impl Default for Shot {
     }
 }
 
-/// The strands by which a hair file is judged, and the shot that it is of.
+/// The strands by which a hair file is judged, and its shot.
 fn strands_of(file: &Path) -> Result<(Strands, Shot)> {
     let mut opened = GroomFile::open(file)?;
     let strands = seat::judged(&opened.hair_in_place(0, None)?);
     if strands.is_empty() {
         return Err(Error::new("holds no strands").in_file(file));
     }
-    // As long as the file's, where its hair moves; hair of two frames has but been moved.
+    // As long as the file's if its hair moves; with two frames, the hair was only moved.
     let frames = opened.frames()? - 1;
     let frames = if frames > 1 { frames } else { Shot::default().frames };
     Ok((strands, Shot { frames, rate: opened.frame_rate()? }))
 }
 
-/// `head`: that of the scene, where it is no built-in one, and whether it is of the same file.
+/// `head`: that of the scene, if it is not built in, and whether it is from the same file.
 fn imported_hair(
     scene: &Path,
     file: &Path,

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 /// Largest number of threads.
 pub const MOST: u16 = 512;
 
-/// What says how many, where nothing else does.
+/// The environment variable for the number.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 
 fn in_environment() -> Option<u64> {

@@ -85,7 +85,7 @@ impl fmt::Display for Told {
 }
 
 impl Told {
-    /// What is told in one line, as it is.
+    /// A report of one line, as text.
     fn line(&self) -> String {
         match self {
             Self::Reading(files) => {
@@ -187,7 +187,7 @@ impl fmt::Display for SceneSummary {
         let [x, y, z] = self.half_axes;
         writeln!(f, "  head    {}, ellipsoid {x:.1} x {y:.1} x {z:.1} cm", OneLine(&self.head))?;
         if self.doubled_triangles > 0 {
-            writeln!(f, "          left out {} triangles of second sides", self.doubled_triangles)?;
+            writeln!(f, "          left out {} back-side triangles", self.doubled_triangles)?;
         }
         if self.turned_triangles > 0 {
             writeln!(f, "          turned {} triangles that faced inward", self.turned_triangles)?;
@@ -297,7 +297,7 @@ impl Swing {
     }
 }
 
-/// Frames of the slowest swing of a straight strand of the free form, which hangs from its root along what pulls on it by `pull`.
+/// Frames of the slowest swing of a straight strand of the free form that hangs from its root in the direction of the total `pull`.
 ///
 /// Without stiffness it is a hanging chain, whose omega^2 is 1.446 g / L (1.2024 is half the first zero of the Bessel function J_0), and
 /// hold makes it heavier by as much. Without weight it is a cantilever of 12.36 EI / (lambda L^4). Both at once swing at least as fast as
@@ -307,13 +307,13 @@ fn strand_swing(dynamics: &Dynamics, form: &FreeForm, length: f64, pull: f64) ->
     let stiffness = mean(&form.stiffness, |s| (1.0 - s).powi(3));
     let hold = mean(&form.hold, |s| s * (1.0 - s));
     let push = push(dynamics, length);
-    // EI / lambda of docs/motion-forms.md.
+    // EI / lambda in docs/motion-forms.md.
     let bending = 0.375 * push * length * stiffness * f64::from(dynamics.segment_length).powi(2);
     let squared = 1.446 * push * (pull + hold) / length + 12.36 * bending / length.powi(4);
     std::f64::consts::TAU / squared.sqrt()
 }
 
-/// The mean of a strength from root (0) to tip (1), by a weight.
+/// The weighted mean of a strength from root (0) to tip (1).
 fn mean(profile: &Profile, weight: impl Fn(f64) -> f64) -> f64 {
     const PARTS: u32 = 128;
     let (sum, all) = (0..PARTS).fold((0.0, 0.0), |(sum, all), i| {
@@ -331,7 +331,7 @@ impl SwingTable {
             Form::Free(free) => Some(&free.form),
         };
         let tie = form.and_then(|form| form.tie);
-        // What is held does not swing.
+        // Held segments do not swing.
         let swinging = |strand: &[Vec3]| {
             let held = tie.map_or(0, |tie| tie.held(strand));
             (strand[held..].windows(2).map(|w| w[0].distance(w[1])).sum::<f32>(), held > 0)
@@ -431,7 +431,7 @@ mod tests {
             let mut timeline = Timeline::new(&strands, &dynamics, field, Vec::new(), FRAMES).unwrap();
             let film = timeline.play();
             let tip: Vec<f64> = (9..=FRAMES).map(|n| film.strand(n, 0)[18].x.into()).collect();
-            // After the first third higher modes have died, and the tip passes its rest twice in a swing.
+            // After the first third, higher modes have died out, and the tip passes its rest twice in a swing.
             let passes: Vec<f64> = (FRAMES as usize / 3..tip.len())
                 .filter(|&i| tip[i - 1] < 0.0 && tip[i] >= 0.0)
                 .map(|i| i as f64 - tip[i] / (tip[i] - tip[i - 1]))
@@ -446,7 +446,7 @@ mod tests {
         let form = FreeForm { stiffness: Profile::Even(0.0), hold: Profile::Even(0.0), ..FreeForm::default() };
         let dynamics = Dynamics::new(Ellipsoid { center: Vec3::ZERO, half_axes: Vec3::ONE });
         assert_eq!(strand_swing(&dynamics, &form, 18.0, 0.0), f64::INFINITY);
-        // Slow motion and a time step as much smaller are one.
+        // Slow motion equals a time step smaller by the same factor.
         let mut slow = dynamics.clone();
         slow.motion.slow = 4.0;
         let [all, slowly] = [&dynamics, &slow].map(|dynamics| strand_swing(dynamics, &form, 18.0, 100.0));

@@ -33,7 +33,7 @@ pub struct Unwatched;
 
 impl Watch for Unwatched {}
 
-/// Carries out `frame` for each of `frames`, before the eyes of `watch`.
+/// Calls `frame` for each of `frames`, and reports to `watch`.
 pub(crate) fn each_frame(
     watch: &mut dyn Watch,
     doing: &'static str,

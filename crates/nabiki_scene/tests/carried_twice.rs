@@ -114,7 +114,7 @@ fn a_scale_that_changes_and_a_shear_are_said_to_be_left_out() {
         (
             "double3 xformOp:scale = (1, 1.1, 1)",
             "\"xformOp:scale\", \"xformOp:rotateZ\"",
-            Some("ignored: its shear: scaled unevenly above a turn"),
+            Some("ignored: its shear, from uneven scale above a rotation"),
         ),
     ] {
         let scaled = layer.replace("uniform token[]", &format!("{operation}\n uniform token[]"));

@@ -249,7 +249,7 @@ fn what_could_not_be_loaded_again_is_not_saved() {
     let long = |scene: &mut Scene| {
         scene.head.motion = Some(MotionSource { file: "m".repeat(17 << 20).into(), ..MotionSource::default() });
     };
-    assert!(refused(&long, &path).contains("bytes long: a scene has at most 1048576"));
+    assert!(refused(&long, &path).contains("bytes: a scene may have at most 1048576"));
     for name in ["a.abc", "a.usdc", "a.hair", "a.nabiki", "a.png"] {
         assert!(refused(&|_| (), &folder.path().join(name)).contains("a scene ends in .toml"), "{name}");
     }

@@ -112,16 +112,16 @@ fn the_papers_field_is_the_papers() {
 fn fields_without_anything_to_act_on_are_refused() {
     assert_eq!(
         refused(&without("[[force]]", "[wind]")),
-        "fields.toml:7: wind.ease = smooth: there is no [[force]] to ease: give one, or remove it"
+        "fields.toml:7: wind.ease = smooth: there is no [[force]] to ease: add one, or remove this"
     );
     let bare = "[turbulence]\n";
     assert_eq!(
         refused(&format!("{bare}[gust]\n")),
-        "fields.toml:2: gust = on: gusts change the strength of [[force]], and there is none: add one, or remove [gust]"
+        "fields.toml:2: gust = on: gusts change the strength of [[force]], but there is none: add one, or remove [gust]"
     );
     assert_eq!(
         refused(&format!("{bare}[flow]\n")),
-        "fields.toml:2: flow = on: there is no [[force]] or [body_wind] to lead around the head: add one, or remove [flow]"
+        "fields.toml:2: flow = on: there is no [[force]] or [body_wind] to guide around the head: add one, or remove [flow]"
     );
     assert_eq!(
         refused(&format!("{bare}[body_wind]\n")),
@@ -152,7 +152,7 @@ fn settings_out_of_range_are_refused_with_their_line() {
     );
     assert_eq!(
         change("frame = 6", "frame = 1"),
-        "fields.toml:24: fan[0].envelope[1].frame = 1: must come after frame 2, that of the key before it"
+        "fields.toml:24: fan[0].envelope[1].frame = 1: must come after frame 2, the frame of the key before it"
     );
     assert_eq!(
         change("\"smooth\"", "\"smoot\""),
@@ -196,7 +196,7 @@ fn what_an_override_is_wrong_about_is_the_override() {
         ("force.0.vector", "[0, nan, 0]", "force[0].vector = [0, NaN, 0]"),
         ("force.1.vector", "[1, 0, 0]", "force[1].through: is missing"),
         ("free.stiffness", "[1, -1]", "free.stiffness[1] = -1"),
-        ("body.0.margin", "0.2", "body[0].mesh = nothing"),
+        ("body.0.margin", "0.2", "body[0].mesh is missing"),
     ] {
         let refused = said(key, value);
         assert!(refused.starts_with(&format!("fields.toml: --set {key}={value}: {words}")), "{refused}");

@@ -188,7 +188,7 @@ fn strengths_that_are_none_are_refused_where_they_stand() {
 fn bodies_that_are_none_are_refused() {
     assert_eq!(
         refused("mesh = \"solid.obj\"", "margin = 0.2"),
-        "free.toml:11: body[0].mesh = nothing: give the file of its mesh"
+        "free.toml:11: body[0].mesh is missing: give the file of its mesh"
     );
     assert_eq!(
         refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nwith_head = true\nmotion = { file = \"short.csv\" }"),
@@ -199,19 +199,19 @@ fn bodies_that_are_none_are_refused() {
             "mesh = \"solid.obj\"",
             "mesh = \"solid.obj\"\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:13: body[0].motion = 3 frames: the scene goes on to frame 3: make motion.frames smaller, or the motion longer"
+        "free.toml:13: body[0].motion = 3 frames: ends before the last frame, 3: lower motion.frames, or give a longer motion"
     );
     assert_eq!(
         refused(
             "mesh = \"solid.obj\"",
             "mesh = \"solid.obj\"\nmotion = { file = \"brief.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:13: body[0].motion = 1 frame: the scene goes on to frame 3: make motion.frames smaller, or the motion longer",
+        "free.toml:13: body[0].motion = 1 frame: ends before the last frame, 3: lower motion.frames, or give a longer motion",
         "a motion of one pose is not a body that stands still"
     );
     assert_eq!(
         refused("solid.obj", "sheet.obj"),
-        "free.toml:12: body[0].mesh = 9 x 9 x 0 cm: a sheet encloses no space, or next to none, so it has no inside: make it thicker"
+        "free.toml:12: body[0].mesh = 9 x 9 x 0 cm: a sheet encloses no space: make it thicker"
     );
     assert_eq!(
         refused("solid.obj", "no/hand.obj"),
@@ -238,7 +238,7 @@ fn bodies_that_are_none_are_refused() {
             "mesh = \"solid.obj\"",
             "mesh = \"sheet.obj\"\nsolid = false\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:14: body[0].motion = 3 frames: the scene goes on to frame 3: make motion.frames smaller, or the motion longer",
+        "free.toml:14: body[0].motion = 3 frames: ends before the last frame, 3: lower motion.frames, or give a longer motion",
         "a sheet will do for what is only drawn, a motion too short will not"
     );
     for (value, remedy) in [("smoothing = -1", "0..240"), ("speed = 0", "0.01..100"), ("speed = nan", "0.01..100")] {

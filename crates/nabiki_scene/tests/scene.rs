@@ -149,7 +149,7 @@ fn where_no_hair_can_grow_the_ellipsoid_that_is_given_is_named() {
     let small = [("head.ellipsoid", "{ center = [0, 0, 0], half_axes = [1, 1, 1] }")];
     let refused = parse(GUST, &small).unwrap().build(Shown::First(2)).unwrap_err().to_string();
     assert!(
-        refused.contains("hair.hairline = no scalp: ") && refused.contains("or correct head.ellipsoid"),
+        refused.contains("hair.hairline leaves no scalp for hair: ") && refused.contains("or correct head.ellipsoid"),
         "{refused}"
     );
 }
@@ -214,11 +214,11 @@ fn wrong_types_say_what_was_found_and_what_must_be() {
     );
     assert_eq!(
         refused("[motion]", "[[motion]]"),
-        "scenes/gust.toml:4: motion: found a list of tables, must be a table; in a file it begins with one bracket, [motion]"
+        "scenes/gust.toml:4: motion: found a list of tables, must be a table; in a file, write [motion] above it"
     );
     assert_eq!(
         parse("[force]\nthrough = 50\n", &[]).unwrap_err().to_string(),
-        "scenes/gust.toml:1: force: found a table, must be a list in brackets, even of one; in a file, each table of a list begins with two, [[force]]"
+        "scenes/gust.toml:1: force: found a table, must be a list in brackets, even of one entry; in a file, write [[force]] above each table of a list"
     );
     let table = refused("[-100, 0, 0]", "{ x = 1, y = 0, z = 0 }");
     assert_eq!(table, "scenes/gust.toml:11: force[0].vector: found a table, must be three numbers, [x, y, z]");
@@ -281,7 +281,7 @@ fn values_out_of_range_are_refused_by_their_owners_with_the_line() {
     );
     assert_eq!(
         parse("[motion]\nframes = 3\n", &[]).unwrap_err().to_string(),
-        "scenes/gust.toml: force = none: give at least one [[force]] with through and vector, or another field"
+        "scenes/gust.toml: force is missing: give at least one [[force]] with through and vector, or another field"
     );
     assert_eq!(
         refused("[motion]", "[head]\nshell = 1\n[motion]"),
@@ -337,7 +337,7 @@ fn a_wrong_override_is_named_instead_of_a_line() {
     );
     assert_eq!(
         refused_override("motion.frames.x", "1"),
-        "scenes/gust.toml: --set motion.frames.x=1: motion.frames is integer 100, it has nothing below it"
+        "scenes/gust.toml: --set motion.frames.x=1: motion.frames is integer 100, which has no keys"
     );
     assert_eq!(
         refused_override("motion..frames", "1"),
@@ -348,7 +348,7 @@ fn a_wrong_override_is_named_instead_of_a_line() {
         "scenes/gust.toml: --set force.0.vector=[1,2: [1,2 is not a TOML value: write 0.5, not .5, and close each bracket and quote"
     );
     let large = refused_override("hair.seed", "9223372036854775808");
-    assert!(large.contains("9223372036854775808 is outside the whole numbers of TOML"), "{large}");
+    assert!(large.contains("9223372036854775808 is outside TOML's whole numbers"), "{large}");
 }
 
 #[test]

@@ -229,7 +229,7 @@ fn without_unknowns_every_wind_that_a_wish_feels_may_change() {
         assert_eq!(ear.advice, [""; 0]);
     }
     let calm = SCENE.split_once("# first").unwrap().0;
-    assert!(refusal(calm, wishes).starts_with("wish.toml: unknowns = none: nothing may change"));
+    assert!(refusal(calm, wishes).starts_with("wish.toml: unknowns is empty, so nothing may change"));
 }
 
 #[test]
@@ -304,7 +304,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         (wish("along = [0.5, 1]", "weight = -1"), "wish.toml:7: wish[0].weight = -1: must be a finite number above 0"),
         (wish("along = [0.5, 1]", "weight = nan"), "wish.toml:7: wish[0].weight = NaN: must be"),
         (wish("along = [0.5, 1]", "along = [1, 0.5]"), "wish.toml:7: wish[0].along = [1, 0.5]: must be two parts"),
-        (wish("vectors = [0]", ""), "wish.toml:1: unknowns = none: nothing may change"),
+        (wish("vectors = [0]", ""), "wish.toml:1: unknowns is empty, so nothing may change"),
         (
             wish("vectors = [0]", "vectors = [2]"),
             "wish.toml:2: unknowns.vectors[0] = 2: the intervals of [[force]] are 0 to 1",
@@ -328,7 +328,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
                 &SCENE.replace("[motion]", "[free]\nsettle = 0\n\n[motion]"),
                 &WISHES.replace("vectors = [0]", "settle = true"),
             ),
-            "wish.toml:2: unknowns.settle = true: it is 0 everywhere, and the solver only scales it",
+            "wish.toml:2: unknowns.settle = true: the solver only scales it, but it is 0 everywhere",
         ),
         (
             wish("vectors = [0]", "vektors = [0]"),
@@ -342,12 +342,12 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
             wish("vectors = [0]", "interval = { from = 40, through = 99 }"),
             "wish.toml:2: unknowns.interval.through = 99: hair moves",
         ),
-        (refusal(SCENE, "[unknowns]\nvectors = [0]\n"), "wish.toml: wish = none: nothing to solve for"),
-        (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] = no hair: name the hair"),
-        (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] = no goal: give the goal as one of"),
+        (refusal(SCENE, "[unknowns]\nvectors = [0]\n"), "wish.toml: wish is missing: give a [[wish]]"),
+        (wish("strands = [3, 7, 11]", ""), "wish.toml:4: wish[0] names no hair: give"),
+        (wish("mean_moved = [-1, 2, -2]", ""), "wish.toml:4: wish[0] has no goal: give one of"),
         (
             wish("mean_moved", "mean_at = [0, 0, 0]\nmean_moved"),
-            "wish.toml:8: wish[0].mean_at = given with mean_moved: give",
+            "wish.toml:8: wish[0].mean_at is given with mean_moved: give",
         ),
         (
             wish("mean_moved = [-1, 2, -2]", "places = [[1, 2, 3]]"),
@@ -355,7 +355,7 @@ fn what_makes_no_sense_is_refused_with_file_line_value_and_way_out() {
         ),
         (
             wish("mean_moved = [-1, 2, -2]", "mean_moved = [1, inf, 0]"),
-            "wish.toml:8: wish[0].mean_moved = not finite: every",
+            "wish.toml:8: wish[0].mean_moved is not finite: every",
         ),
         (
             wish("strands = [3, 7, 11]", "near = { point = [90, 0, 0], radius = 2 }"),

@@ -47,7 +47,7 @@ fn what_is_refused_beside_a_head_in_another_unit_names_the_unit() {
     ] {
         let line = refused(folder, "", lines);
         assert!(line.contains(why), "{line}");
-        assert_eq!(line.matches("look first at the size: the head's half axes are 0.09").count(), 1, "{line}");
+        assert_eq!(line.matches("check the size first: the head's half axes are 0.09").count(), 1, "{line}");
         assert!(line.contains("a person's head has about 9.5 x 11 x 7.8 cm: give head.unit = \"m\""), "{line}");
     }
     // With the unit the same number is right, and what is still refused is its own fault.

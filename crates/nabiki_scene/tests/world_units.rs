@@ -136,7 +136,7 @@ fn what_is_no_quantity_and_what_has_no_meaning_is_refused_where_it_stands() {
     assert_eq!(wind("\"-5 m/s\""), "a.toml:12: force[0].speed = -5 m/s: must not be below 0");
     assert_eq!(
         refused(&text("", "", "vector = [0, 0, 0]\nspeed = \"5 m/s\"")),
-        "a.toml:12: force[0].speed = 5 m/s: a wind of this speed needs a direction: give vector one"
+        "a.toml:12: force[0].speed = 5 m/s: a wind of this speed needs a direction: set vector"
     );
     assert_eq!(
         refused(&text("", "", &format!("{speed}\"5 m/s\"")).replace("\"free\"", "\"paper\"")),

@@ -63,7 +63,7 @@ impl Layout {
         match text.and_then(|text| Self::read(&text)) {
             Ok(layout) => (layout, None),
             Err(why) => {
-                let said = format!("{}: {why}; the panels are as at the first start", file.display());
+                let said = format!("{}: {why}; the default layout applies", file.display());
                 (Self::default(), Some(said))
             }
         }

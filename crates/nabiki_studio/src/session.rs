@@ -477,7 +477,7 @@ impl Session {
         let wake = self.wake.clone();
         match Task::begin(order, document.scene().clone(), move || wake.0()) {
             Ok(task) => self.tasks.push(task),
-            Err(e) => self.say(format!("the export cannot begin: {e}"), true),
+            Err(e) => self.say(format!("the export cannot start: {e}"), true),
         }
     }
 

@@ -189,6 +189,6 @@ mod tests {
         let long = "n".repeat(5000);
         let found = named(&[&long, &format!("{long}x")]);
         assert!(found.iter().all(|name| name.len() <= 1010) && found[0] != found[1]);
-        assert_eq!(changes(&[one("a b"), one("a_b")]), ["the name \"a b\": it is a_b_2 there"]);
+        assert_eq!(changes(&[one("a b"), one("a_b")]), ["the name \"a b\": it becomes a_b_2"]);
     }
 }

@@ -10,7 +10,7 @@ pub fn unread(layer: &Layer, wanted: &str, is_meant: &dyn Fn(&str) -> bool) -> V
     by.dedup();
     let line = |by: usize| {
         format!(
-            "the prototypes of PointInstancer {}, drawn at its instances alone: make prims of these first",
+            "the prototypes of PointInstancer {}, drawn only at its instances: turn these into prims first",
             layer.path(by)
         )
     };

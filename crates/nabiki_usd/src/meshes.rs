@@ -47,7 +47,7 @@ fn bent(layer: &mut Layer, prim: usize, stance: Stance) -> Result<Vec<String>, P
     }
     let Some(skin) = Skin::of(layer, prim)? else {
         let bound = layer.prims[prim].related().find(|name| name.starts_with("skel:"));
-        let line = |name| format!("{name} of {path}: it keeps the shape that its own points have");
+        let line = |name| format!("{name} of {path}: it keeps the shape of its own points");
         return Ok(bound.map(line).into_iter().collect());
     };
     let unblended = skin.unblended(&path).filter(|_| stance == Stance::First);

@@ -63,7 +63,7 @@ impl StageReader {
         match axis.as_str() {
             "Y" | "y" => Ok(Some(false)),
             "Z" | "z" => Ok(Some(true)),
-            _ => Err(Problem(format!("upAxis = \"{axis}\": must be \"Y\" or \"Z\", as USD has it"))),
+            _ => Err(Problem(format!("upAxis = \"{axis}\": must be \"Y\" or \"Z\""))),
         }
     }
 
@@ -122,15 +122,15 @@ impl StageReader {
     /// Why a layer has no curves to read, and the way out.
     fn no_curves(&self) -> Problem {
         if let Some(prototypes) = instances::unread(&self.layer, "BasisCurves", &|_| true).first() {
-            return Problem(format!("has no BasisCurves but {prototypes}"));
+            return Problem(format!("has no BasisCurves except {prototypes}"));
         }
         let is_over = |&i: &usize| self.layer.prims[i].type_name == "BasisCurves" && self.layer.is_active(i);
         if let Some(over) = (0..self.layer.prims.len()).find(is_over) {
             let path = self.layer.path(over);
             return Problem(if arcs::has_instances(&self.layer) {
                 format!(
-                    "curves {path}: are a prototype of instances, which flattening leaves: turn off instanceable on these before it \
-                     (usdcat --flatten IN -o OUT)"
+                    "curves {path}: are a prototype of instances: turn off instanceable on the instances, then flatten the \
+                     layer (usdcat --flatten IN -o OUT)"
                 )
             } else {
                 let way_out = arcs::way_out(&self.layer);
@@ -275,7 +275,7 @@ fn course(layer: &mut Layer, prim: usize) -> Result<Course, Problem> {
         ("cubic", "bezier") => Ok(Course { basis: Basis::Bezier, pinned }),
         ("cubic", "bspline") => Ok(Course { basis: Basis::Bspline, pinned }),
         ("cubic", "catmullRom") => Ok(Course { basis: Basis::CatmullRom, pinned }),
-        (order, basis) => Err(Problem(format!("are {order} of basis {basis}, which USD does not know"))),
+        (order, basis) => Err(Problem(format!("are {order} with basis {basis}, which USD does not have"))),
     }
 }
 
@@ -321,7 +321,7 @@ impl GroomReader for StageReader {
             let kind = match type_name.as_str() {
                 _ if !self.layer.is_on_stage(i) => {
                     let why = match (self.layer.is_active(i), self.layer.is_defined(i)) {
-                        (false, _) => "inactive or of a class",
+                        (false, _) => "inactive or in a class",
                         (true, false) => "an over",
                         (true, true) => "drawn where its point instancer has instances",
                     };
@@ -425,13 +425,13 @@ impl GroomReader for StageReader {
             lost.extend(none.or(misfit).map(|why| format!("texture coordinates of {path}: {why}")));
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
-            Some(p) => Err(Problem(format!("has a vertex at {p}"))),
+            Some(p) => Err(Problem(format!("has a vertex at {p}, which is not finite"))),
             None if mesh.triangles.is_empty() => match arcs::unread(&mut self.layer)? {
                 Some(_) => {
                     Err(Problem(format!("has no meshes: if they come by reference, {}", arcs::way_out(&self.layer))))
                 }
                 None => match instances::unread(&self.layer, "Mesh", wanted).first() {
-                    Some(prototypes) => Err(Problem(format!("has no meshes but {prototypes}"))),
+                    Some(prototypes) => Err(Problem(format!("has no meshes except {prototypes}"))),
                     None => Err(Problem::new("has no meshes")),
                 },
             },

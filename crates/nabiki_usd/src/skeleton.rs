@@ -226,7 +226,7 @@ impl Joint {
         {
             let (path, joints) = (layer.path(animation.prim), animation.count);
             return Err(Problem(format!(
-                "animation {path}: it has {joints} joints and not as many translations, rotations and scales"
+                "animation {path}: it has {joints} joints, but another number of translations, rotations or scales"
             )));
         }
         let Some(pose) = self.rig.poses(layer, time)?[self.index] else {

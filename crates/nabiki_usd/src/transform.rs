@@ -79,14 +79,14 @@ fn not_there_itself(layer: &mut Layer, prim: usize) -> Result<Rc<[String]>, Prob
     for word in words {
         let name = word.strip_prefix("!invert!").unwrap_or(&word);
         if name != RESET && !layer.prims[prim].attributes.contains_key(name) {
-            let line = format!("{word:?} of {}: its xformOpOrder names it, and it is not there", layer.path(prim));
+            let line = format!("{word:?} of {}: its xformOpOrder names it, but it does not exist", layer.path(prim));
             layer.budget.keep(line.len() as u64, "notes on transforms")?;
             lines.push(line);
         }
     }
     if layer.prims[prim].attributes.contains_key("xformOpOrder") && !layer.prims[prim].is_transformable() {
         let kind = if layer.prims[prim].type_name.is_empty() { "has no type" } else { "is a Scope" };
-        lines.push(format!("the transform of {}: it {kind}, and such prims have none in USD", layer.path(prim)));
+        lines.push(format!("the transform of {}: USD ignores it, because the prim {kind}", layer.path(prim)));
     }
     let lines: Rc<[String]> = lines.into();
     layer.not_there.insert(prim, lines.clone());

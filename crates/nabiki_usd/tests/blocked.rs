@@ -38,7 +38,7 @@ fn what_is_blocked_reads_as_if_it_were_not_written_and_leaves_no_line() {
         assert_eq!(found.strands, hair.strands, "{name}");
         let (of_hair, unread) = (found.attributes, &hair.attributes.unread);
         // The order of operations still names the one that is blocked; without its line it is not there.
-        let missing = "\"xformOp:scale\" of /groom: its xformOpOrder names it, and it is not there";
+        let missing = "\"xformOp:scale\" of /groom: its xformOpOrder names it, but it does not exist";
         assert_eq!((&of_hair.unread, &unread[..]), (&Vec::new(), &[missing.to_owned()][..]), "{name}");
         assert_eq!((&of_hair.id, &of_hair.root_uv), (&Some(vec![41, 42]), &Some(vec![[0.1, 0.2], [0.3, 0.4]])));
         assert_eq!(of_hair.width, Some(vec![0.5, 0.5, 0.5, 0.25, 0.25, 0.25]), "{name}");

@@ -94,7 +94,7 @@ fn samples_between_whole_codes_are_said() {
     assert_eq!((frames.times, frames.frame_rate), (vec![1.0 / 24.0, 2.0 / 24.0], 24.0));
     let hair = stage.hair(0, None).unwrap();
     assert_eq!(hair.strands.strand(0)[1], Vec3::X * 4.0);
-    assert_eq!(hair.attributes.unread, ["2 samples between frames, of which there are 24 a second"]);
+    assert_eq!(hair.attributes.unread, ["2 samples between frames, at 24 frames a second"]);
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn units_axes_and_rates_that_are_none_are_refused_in_one_line() {
         ("metersPerUnit = 0", "metersPerUnit = 0: must be a finite number above 0, 0.01 for centimetres"),
         ("metersPerUnit = -1", "metersPerUnit = -1: must be a finite number above 0, 0.01 for centimetres"),
         ("metersPerUnit = nan", "metersPerUnit = NaN: must be a finite number above 0, 0.01 for centimetres"),
-        ("upAxis = \"X\"", "upAxis = \"X\": must be \"Y\" or \"Z\", as USD has it"),
+        ("upAxis = \"X\"", "upAxis = \"X\": must be \"Y\" or \"Z\""),
         ("timeCodesPerSecond = 0", "timeCodesPerSecond = 0: must be a finite number above 0, 24, say"),
     ] {
         let refused = reader(format!("#usda 1.0\n( {metadata} )\n")).contents().unwrap_err();
@@ -285,7 +285,7 @@ fn root_uvs_under_a_name_of_their_own_keep_it_and_ids_that_are_none_are_said() {
     assert_eq!(at.root_uv, Some(vec![[0.0, 0.5], [1.0, 0.25]]));
     assert!(at.other.iter().any(|o| o.name == "rootuv"));
     assert_eq!(at.id, Some(vec![7, 7]));
-    let said = "unique strand ids: as read, 1 strand has the id of another";
+    let said = "unique strand ids: 1 strand has the id of another";
     assert!(at.unread.iter().any(|line| line == said), "{:?}", at.unread);
 }
 
@@ -314,7 +314,7 @@ fn what_strands_have_one_of_may_be_given_by_point_and_is_said_where_it_changes_a
     assert_eq!((&at.id, &at.group, &at.guide), (&Some(vec![7, 0]), &Some(vec![7, 0]), &Some(vec![true, false])));
     let line = |name: &str, curves: usize| {
         format!(
-            "{name} from point to point: it changes along {curves} of 2 curves, and a strand has that of its root alone"
+            "{name} from point to point: it changes along {curves} of 2 curves, but a strand keeps only the value at its root"
         )
     };
     // The ids under another program's name are all there, by point.
@@ -454,7 +454,7 @@ fn classes_and_inactive_prims_are_no_hair_and_absent_values_are_said() {
     let said = [
         "palette: some of its indices name no value",
         "primvars:above of /on, which is above it",
-        "visibility of /on/h: it is \"invisible\" there",
+        "visibility of /on/h, which is \"invisible\"",
     ];
     assert_eq!(hair.attributes.unread, said);
     let mut hermite = reader("#usda 1.0\ndef HermiteCurves \"h\" {}\n");

@@ -152,7 +152,7 @@ fn comments_of_any_kind_stand_between_prims_and_values_also_at_the_end_of_a_wind
         assert_eq!(hair.strands.points(), [Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)], "moved by {length}");
     }
     let open = StageReader::new(Cursor::new(b"#usda 1.0\n/* def".to_vec())).map(|_| ()).unwrap_err().to_string();
-    assert_eq!(open, "line 2: a comment that is never closed");
+    assert_eq!(open, "line 2: a comment is never closed");
 }
 
 #[test]

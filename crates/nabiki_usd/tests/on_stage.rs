@@ -52,7 +52,7 @@ fn meshes_that_do_not_show_are_left_out_beside_those_that_do_and_that_is_said() 
         let said = format!("mesh /a/b, which is hidden: {name} of /a is \"{value}\"");
         assert_eq!(meshes(&format!("{above}{head}")), (1, vec![said]));
         // Alone it is the head.
-        assert_eq!(meshes(&own), (1, vec![format!("{name} of /other: it is \"{value}\" there")]));
+        assert_eq!(meshes(&own), (1, vec![format!("{name} of /other, which is \"{value}\"")]));
     }
     // The nearest purpose holds; an invisible prim hides whatever is below it.
     let nearest = format!(
@@ -77,8 +77,8 @@ fn holes_and_meshes_invisible_at_times_are_kept_and_said() {
         "int[] holeIndices = [1, 3]\n token visibility.timeSamples = { 1: \"invisible\", 5: \"inherited\" }",
     );
     let said = [
-        "holeIndices of /head: the 2 faces that they take out are kept",
-        "visibility of /head: it is \"invisible\" there at some frames",
+        "holeIndices of /head: the 2 faces they remove are kept",
+        "visibility of /head, which is \"invisible\" at some frames",
     ];
     assert_eq!(meshes(&format!("{holed}{}", mesh("neck", ""))), (2, said.map(str::to_owned).to_vec()));
     let never = mesh("ghost", "token visibility.timeSamples = { 1: \"invisible\", 5: \"invisible\" }");
@@ -89,11 +89,11 @@ fn holes_and_meshes_invisible_at_times_are_kept_and_said() {
 fn curves_that_do_not_show_are_read_and_that_is_said_once() {
     let below = |mark: &str| format!("def Xform \"a\" {{ {mark}\n {}{} }}\n", curve("h", ""), curve("i", ""));
     for (mark, said) in [
-        ("token visibility = \"invisible\"", "visibility of /a: it is \"invisible\" there"),
-        ("uniform token purpose = \"guide\"", "purpose of /a: it is \"guide\" there"),
+        ("token visibility = \"invisible\"", "visibility of /a, which is \"invisible\""),
+        ("uniform token purpose = \"guide\"", "purpose of /a, which is \"guide\""),
         (
             "token visibility.timeSamples = { 1: \"inherited\", 5: \"invisible\" }",
-            "visibility of /a: it is \"invisible\" there at some frames",
+            "visibility of /a, which is \"invisible\" at some frames",
         ),
     ] {
         assert_eq!(curves(&below(mark)), (2, vec![said.to_owned()]));
@@ -212,13 +212,13 @@ fn splines_are_refused_as_such_in_transforms_and_said_elsewhere() {
 #[test]
 fn closed_curves_are_left_out_beside_hair_and_that_is_said() {
     let rein = curve("rein", "uniform token wrap = \"periodic\"");
-    let said = "curves /rein, which are closed, unlike hair".to_owned();
+    let said = "curves /rein, which are closed: hair is open".to_owned();
     assert_eq!(curves(&format!("{rein}{}", curve("mane", ""))), (1, vec![said]));
     let mut both = reader(&format!("{rein}{}", curve("mane", "")));
     assert_eq!(both.contents().unwrap().curves, ["/mane"]);
     assert_eq!(both.prims().unwrap()[0].kind, PrimKind::Other("BasisCurves (closed)".to_owned()));
     let refused = reader(&rein).hair(0, None).unwrap_err().to_string();
-    assert_eq!(refused, "curves /rein: are closed, which hair cannot be: export them as open (nonperiodic) curves");
+    assert_eq!(refused, "curves /rein: are closed, but hair is open: export them as open (nonperiodic) curves");
 }
 
 #[test]
@@ -229,7 +229,7 @@ fn of_meshes_those_are_read_that_are_wanted() {
     assert_eq!(stage.meshes(&|path| path == "/beast").unwrap().positions.len(), 4);
     assert_eq!(stage.meshes_unread(&|path| path == "/beast").unwrap(), [""; 0]);
     assert_eq!(stage.meshes(&ground).unwrap().positions.len(), 4, "nothing else of what is wanted shows");
-    assert_eq!(stage.meshes_unread(&ground).unwrap(), ["purpose of /ground: it is \"proxy\" there"]);
+    assert_eq!(stage.meshes_unread(&ground).unwrap(), ["purpose of /ground, which is \"proxy\""]);
 }
 
 #[test]
@@ -244,7 +244,7 @@ fn that_a_mesh_bends_is_said() {
     let said = "the motion of the points of /beast: it keeps the shape of the first frame".to_owned();
     assert_eq!(meshes(&moving), (1, vec![said]));
     let bound = mesh("beast", "rel skel:skeleton = </bones>");
-    let said = "skel:skeleton of /beast: it keeps the shape that its own points have".to_owned();
+    let said = "skel:skeleton of /beast: it keeps the shape of its own points".to_owned();
     assert_eq!(meshes(&bound), (1, vec![said]));
 }
 
@@ -272,7 +272,7 @@ fn a_head_whose_texture_coordinates_are_none_keeps_its_shape_and_that_is_said() 
         (format!("texCoord2f[] primvars:st = [(0, 0)] {vertex}"), "1 for 4 vertices"),
         (
             format!("texCoord2f[] primvars:st = [(0, 0), (1, 0), (0, nan), (1, 1)] {vertex}"),
-            "those of number 2 are (0, NaN), which are not finite",
+            "number 2 is (0, NaN), which is not finite",
         ),
         (
             format!("token[] primvars:st = [\"a\", \"b\", \"c\", \"d\"] {vertex}"),
@@ -310,13 +310,13 @@ fn curves_of_types_that_are_not_read_are_said_beside_those_that_are() {
 #[test]
 fn prototypes_of_a_point_instancer_are_left_out_and_that_is_said() {
     let instancer = |below: &str| format!("def PointInstancer \"i\" {{ def Scope \"p\" {{ {below} }} }}\n");
-    let said = "the prototypes of PointInstancer /i, drawn at its instances alone: make prims of these first";
+    let said = "the prototypes of PointInstancer /i, drawn only at its instances: turn these into prims first";
     let two = instancer(&format!("{}{}", curve("a", ""), curve("b", "")));
     assert_eq!(curves(&format!("{}{two}", curve("h", ""))), (1, vec![said.to_owned()]));
-    assert_eq!(reader(&two).hair(0, None).unwrap_err().to_string(), format!("has no BasisCurves but {said}"));
+    assert_eq!(reader(&two).hair(0, None).unwrap_err().to_string(), format!("has no BasisCurves except {said}"));
     let ball = instancer(&mesh("m", ""));
     assert_eq!(meshes(&format!("{}{ball}", mesh("head", ""))), (1, vec![said.to_owned()]));
-    assert_eq!(reader(&ball).mesh().unwrap_err().to_string(), format!("has no meshes but {said}"));
+    assert_eq!(reader(&ball).mesh().unwrap_err().to_string(), format!("has no meshes except {said}"));
     // What is not asked for is not missed.
     let mut both = reader(&format!("{}{ball}", mesh("head", "")));
     assert_eq!(both.meshes_unread(&|path| path == "/head").unwrap(), [""; 0]);
@@ -340,8 +340,8 @@ fn instances_are_told_how_to_be_flattened() {
     let refused = reader(&flat).hair(0, None).unwrap_err().to_string();
     assert_eq!(
         refused,
-        "curves /Flattened_Prototype_1/h: are a prototype of instances, which flattening leaves: turn off instanceable on these \
-         before it (usdcat --flatten IN -o OUT)"
+        "curves /Flattened_Prototype_1/h: are a prototype of instances: turn off instanceable on the instances, then flatten the \
+         layer (usdcat --flatten IN -o OUT)"
     );
 }
 
@@ -357,7 +357,7 @@ fn curves_that_are_no_strands_are_left_out_with_what_they_carry_and_counted() {
         );
         let hair = reader(&text).hair(0, None).unwrap();
         assert_eq!((hair.strands.len(), hair.attributes.id), (2, Some(vec![5, 7])), "{kind}");
-        assert_eq!(hair.attributes.unread, ["2 curves of fewer than two points"], "{kind}");
+        assert_eq!(hair.attributes.unread, ["2 curves with fewer than two points"], "{kind}");
         let root = if kind == "linear" { 1.0 } else { 2.0 };
         assert_eq!(hair.strands.strand(0)[0].x, root, "{kind}");
     }

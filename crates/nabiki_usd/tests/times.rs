@@ -77,8 +77,7 @@ fn samples_within_a_frame_are_of_its_shutter_whatever_their_spacing() {
         let mut expected: Vec<f32> = frames.iter().map(|&code| code as f32).collect();
         expected.extend(expected.last().copied());
         assert_eq!(tips(&mut stage), expected, "{head} {codes:?}");
-        let said =
-            (between > 0).then(|| format!("{between} samples between frames, of which there are {rate} a second"));
+        let said = (between > 0).then(|| format!("{between} samples between frames, at {rate} frames a second"));
         assert_eq!(stage.hair(0, None).unwrap().attributes.unread, Vec::from_iter(said), "{head} {codes:?}");
     }
 }
@@ -98,7 +97,7 @@ fn the_samples_of_one_shutter_are_one_frame() {
         let contents = stage.contents().unwrap();
         assert_eq!((contents.times, contents.start), (vec![frame / 24.0], Some(frame / 24.0)), "{head} {codes:?}");
         assert_eq!(tips(&mut stage), [frame as f32; 2], "{head} {codes:?}");
-        let said = format!("{between} between frames, of which there are 24 a second");
+        let said = format!("{between} between frames, at 24 frames a second");
         assert_eq!(stage.hair(0, None).unwrap().attributes.unread, [said], "{head} {codes:?}");
     }
 }

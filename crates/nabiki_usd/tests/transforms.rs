@@ -180,7 +180,7 @@ fn operations_and_values_are_alike_in_text_and_in_binary() {
 #[test]
 fn an_operation_that_is_named_and_not_there_is_passed_over_and_said() {
     let at = "double3 xformOp:translate = (10, 20, 30)";
-    let said = |word: &str| format!("\"{word}\" of /a: its xformOpOrder names it, and it is not there");
+    let said = |word: &str| format!("\"{word}\" of /a: its xformOpOrder names it, but it does not exist");
     for (operations, order, expected, missing) in [
         (&[at][..], &["xformOp:translate", "xformOp:scale"][..], [11.0, 22.0, 33.0], &["xformOp:scale"][..]),
         (&[at], &["xformOp:scale:pivot", "xformOp:translate"], [11.0, 22.0, 33.0], &["xformOp:scale:pivot"]),

@@ -1,4 +1,4 @@
-//! A surface whose folds are filled, so that hair slides over an ear and is not caught behind it.
+//! A surface with filled folds, so that hair slides over an ear and is not caught behind it.
 
 use std::sync::OnceLock;
 
@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use super::{COARSE, EDGE, FINE, Samples, SkinDistance};
 use crate::Mesh;
 
-/// How deep within the filled surface, and how far outside of it, it is sampled finely (cm): in steps four times as long,
-/// a distance of 4 cm comes out too large by a twentieth where the surface bends about a ball of 2 cm.
+/// Depth inside and height outside the filled surface that are sampled finely (cm). At four times the step, a distance
+/// of 4 cm would be too large by a twentieth where the surface bends around a ball of 2 cm.
 const FINE_WITHIN: std::ops::RangeInclusive<f32> = -1.0..=4.0;
 
-/// Sweeps of all eight directions: the second only mends what came round a corner.
+/// Sweeps in all eight directions; the second only corrects what came around a corner.
 const ROUNDS: usize = 2;
 
 impl SkinDistance {
@@ -29,11 +29,11 @@ impl SkinDistance {
         let [nx, ny, nz] = nodes.to_array().map(|n| n as usize);
         let distance = |node: usize| {
             let place = [node % nx, node / nx % ny, node / (nx * ny)].map(|index| index as f32);
-            // A hair within the box, where rounding may put the last samples.
+            // One step inside the box, where rounding may put the last samples.
             self.at((low + spacing * Vec3::from(place)).min(high - 1e-3))
         };
         let distances: Vec<f32> = (0..nx * ny * nz).into_par_iter().with_min_len(4096).map(distance).collect();
-        // How far it is to where a centre may be; below 0 there.
+        // Distance to the places where a centre may be; negative there.
         let mut way: Vec<f32> =
             distances.iter().map(|&d| if d >= radius { radius - d } else { f32::INFINITY }).collect();
         for _ in 0..ROUNDS {
@@ -46,8 +46,8 @@ impl SkinDistance {
         Self { tree: OnceLock::new(), mesh: Mesh::default(), samples: in_two_steps(&filled, low, spacing, cells) }
     }
 
-    /// Lowers samples so that what is read between them lies nowhere within this surface: by what interpolation cuts off
-    /// of it in the middle of each cell near the skin, and in the middles of its faces and edges.
+    /// Lowers samples so that interpolated values never lie inside this surface: by what interpolation cuts off in the
+    /// middle of each cell near the skin, and in the middles of its faces and edges.
     fn enclose(&self, samples: &mut [f32], low: Vec3, step: f32, [nx, ny, nz]: [usize; 3]) {
         let before = &*samples;
         let near = 1.5 * step;
@@ -84,8 +84,8 @@ impl SkinDistance {
     }
 }
 
-/// Of samples through a whole box, all near the surface, and every fourth along each axis elsewhere: few enough to stay
-/// in a near cache.
+/// Samples throughout the box, all of them near the surface and every fourth along each axis elsewhere: few enough to
+/// stay in cache.
 fn in_two_steps(samples: &[f32], low: Vec3, spacing: f32, cells: UVec3) -> Samples {
     let all = FINE as u32 * cells + 1;
     let sample = |at: UVec3| samples[((at.z * all.y + at.y) * all.x + at.x) as usize];
@@ -110,7 +110,7 @@ fn in_two_steps(samples: &[f32], low: Vec3, spacing: f32, cells: UVec3) -> Sampl
     Samples { low, cell: FINE as f32 * spacing, nodes, mirrored: false, coarse, block_of, fine }
 }
 
-/// One sweep through all nodes: bit 0, 1 and 2 of `direction` say along which axes it goes back.
+/// One sweep through all nodes. Bits 0, 1 and 2 of `direction` reverse the axes.
 fn sweep(way: &mut [f32], distances: &[f32], radius: f32, step: f32, counts: [usize; 3], direction: usize) {
     let [nx, ny, nz] = counts;
     let at = |index: usize, count: usize, bit: usize| if direction >> bit & 1 == 0 { index } else { count - 1 - index };
@@ -134,7 +134,7 @@ fn sweep(way: &mut [f32], distances: &[f32], radius: f32, step: f32, counts: [us
     }
 }
 
-/// The solution of the eikonal equation at a node by its nearest neighbours along each axis (Godunov's scheme).
+/// The solution of the eikonal equation at a node from its nearest neighbours along each axis (Godunov's scheme).
 fn upwind(mut around: [f32; 3], step: f32) -> f32 {
     around.sort_by(f32::total_cmp);
     let [a, b, c] = around;

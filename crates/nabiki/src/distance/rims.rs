@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use crate::Mesh;
 
-/// The mesh with doubled vertices joined (those at the very same place, as texture seams leave them) and a fan of
+/// The mesh with duplicate vertices joined (those at exactly the same place, as texture seams leave them) and a fan of
 /// triangles from the middle of each open rim.
 pub(crate) fn closed(mesh: &Mesh) -> Mesh {
     let mut closed = Mesh { positions: mesh.positions.clone(), triangles: joined(mesh), corner_uvs: None };
@@ -21,12 +21,12 @@ pub(crate) fn closed(mesh: &Mesh) -> Mesh {
     closed
 }
 
-/// The rims of a mesh's openings, doubled vertices joined: the vertices of each, in order.
+/// The rims of a mesh's openings after duplicate vertices are joined: the vertices of each, in order.
 pub(crate) fn of(mesh: &Mesh) -> Vec<Vec<u32>> {
     rims(&joined(mesh))
 }
 
-/// The triangles with doubled vertices joined, without those of which two corners then coincide.
+/// The triangles with duplicate vertices joined, without those that then have two equal corners.
 fn joined(mesh: &Mesh) -> Vec<[u32; 3]> {
     let first = mesh.first_at_place();
     let triangles = mesh.triangles.iter().map(|t| t.map(|v| first[v as usize]));
@@ -38,7 +38,7 @@ pub(crate) fn middle(rim: &[u32], positions: &[Vec3]) -> Vec3 {
     rim.iter().map(|&v| positions[v as usize]).sum::<Vec3>() / rim.len() as f32
 }
 
-/// The chains of edges that belong to more triangles on one side than on the other, against the way these run.
+/// Chains of edges with more triangles on one side than on the other, in the reverse of their direction there.
 fn rims(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
     let mut balance: HashMap<(u32, u32), i32> = HashMap::with_capacity(triangles.len() * 2);
     for &[a, b, c] in triangles {
@@ -63,7 +63,7 @@ fn rims(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
         let mut rim = vec![start];
         while at != start {
             rim.push(at);
-            // The rim of a badly joined mesh may end nowhere: then the last fan triangle closes it.
+            // The rim of a badly joined mesh may not close; the last fan triangle then closes it.
             let Some(next) = onward.get_mut(&at).and_then(Vec::pop) else { break };
             at = next;
         }

@@ -1,15 +1,15 @@
-//! Distance and gradient in one reading, for collisions.
+//! Distance and gradient in one lookup, for collisions.
 
 use glam::{Mat3, Vec3};
 
 use super::{COARSE, EDGE, FINE, Samples, SkinDistance};
 use crate::obstacle::{Obstacle, Reading};
 
-/// 1.5 times 2^23: what is added to it is rounded to a whole number, which the lowest bits of the sum then hold.
+/// 1.5 times 2^23: adding it rounds a number to an integer, which the lowest bits of the sum then hold.
 const ROUNDS: f32 = 12_582_912.0;
 
 impl SkinDistance {
-    /// Where some points lie among the fine samples.
+    /// Positions of some points among the fine samples.
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     pub(crate) fn places<const N: usize>(&self, [xs, ys, zs]: [&[f32; N]; 3]) -> Places<N> {
@@ -31,7 +31,7 @@ impl SkinDistance {
         places
     }
 
-    /// The distance at one of them, to the bit as [`read`](Obstacle::read) has it; `None` where it was not sampled finely.
+    /// The distance at one of them, bit for bit as [`read`](Obstacle::read) gives it; `None` if it was not sampled finely.
     #[inline(always)]
     pub(crate) fn fine_distance<const N: usize>(&self, places: &Places<N>, n: usize) -> Option<f32> {
         let block = *self.samples.block_of.get(places.cells[n] as usize)?;
@@ -52,8 +52,8 @@ impl Obstacle for SkinDistance {
         self.sampled_box()
     }
 
-    /// Its gradient is that of the interpolation itself: of unit length but for the sampling, and it jumps by that much from cell to
-    /// cell.
+    /// Its gradient is that of the interpolation: of unit length up to sampling error, with jumps of that size between
+    /// cells.
     #[inline(always)]
     fn read(&self, p: Vec3, _: u32) -> Option<Reading> {
         let cell = self.samples.cell(p)?;
@@ -65,23 +65,23 @@ impl Obstacle for SkinDistance {
     }
 }
 
-/// Where some points lie among the fine samples: the cells about them, which are [`u32::MAX`] beyond the sampled box,
-/// the first sample there in a block, and where between two samples.
+/// Positions of some points among the fine samples: their cells, [`u32::MAX`] outside the sampled box; the first sample
+/// there in a block; and the place between samples.
 pub(crate) struct Places<const N: usize> {
     cells: [u32; N],
     first: [u32; N],
     t: [[f32; N]; 3],
 }
 
-/// The samples about a point.
+/// The samples around a point.
 struct Cell {
     /// Those at the corners, x fastest.
     corners: [f32; 8],
-    /// Where in the cell the point lies, 0..=1.
+    /// Position of the point in the cell, 0..=1.
     t: Vec3,
     /// Edge of the cell.
     edge: f32,
-    /// Whether they stand for their mirror images.
+    /// Whether they are mirrored.
     flipped: bool,
 }
 
@@ -92,7 +92,7 @@ impl Samples {
         let flipped = *mirrored && p.z < 0.0;
         let p = if *mirrored { p.with_z(p.z.abs()) } else { p };
         let cells = *nodes - 1;
-        // In fine steps: how many of them, and what is left.
+        // In fine steps: the whole part and the rest.
         let q = (p - *low) * (FINE as f32 / *cell);
         if !(q.cmpge(Vec3::ZERO).all() && q.cmplt(FINE as f32 * cells.as_vec3()).all()) {
             return None;
@@ -114,16 +114,16 @@ impl Samples {
     }
 }
 
-/// From one layer of a block to the next.
+/// Stride from one layer of a block to the next.
 const SLICE: usize = EDGE * EDGE;
 
-/// Four samples from `at` on, x fastest; rows lie `row` apart.
+/// Four samples from `at` on, x fastest; `row` is the stride between rows.
 #[inline(always)]
 fn square(samples: &[f32], at: usize, row: usize) -> [f32; 4] {
     [samples[at], samples[at + 1], samples[at + row], samples[at + row + 1]]
 }
 
-/// The eight samples of a block about a cell, whose first is `at`, x fastest.
+/// The eight samples around a cell of a block, the first at `at`, x fastest.
 #[inline(always)]
 fn block_corners(block: &[f32; EDGE * EDGE * EDGE], at: usize) -> Option<[f32; 8]> {
     let about: &[f32; SLICE + EDGE + 2] = block.get(at..)?.first_chunk()?;
@@ -131,7 +131,7 @@ fn block_corners(block: &[f32; EDGE * EDGE * EDGE], at: usize) -> Option<[f32; 8
     Some([a, b, c, d, e, f, g, h])
 }
 
-/// The whole part of a number from 0 to 2^21, and what is left, 0..=1: a whole number may count as the end of the cell
+/// The whole part of a number from 0 to 2^21, and the rest, 0..=1. A whole number may count as the end of the cell
 /// before it. Plain x86-64 has no instruction that rounds down.
 #[inline(always)]
 pub(crate) fn whole(x: f32) -> (u32, f32) {
@@ -156,7 +156,7 @@ impl Cell {
         Vec3::new(along_x, along_y, if flipped { -along_z } else { along_z }) / edge
     }
 
-    /// How the gradient changes within the cell: the second derivatives of the interpolation, of which those along one axis
+    /// How the gradient changes within the cell: the second derivatives of the interpolation. Those along one axis
     /// twice are 0.
     #[inline(always)]
     fn hessian(&self) -> Mat3 {

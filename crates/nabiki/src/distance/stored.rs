@@ -8,7 +8,7 @@ use super::{COARSE, EDGE, FINE, SkinDistance};
 use crate::error::check_positive;
 use crate::{Mesh, SettingError};
 
-/// Coarse nodes along an axis: fine steps are told apart by 21 bits.
+/// Most coarse nodes along an axis: 21 bits number the fine steps.
 const MOST_NODES: u32 = (1 << 21) / FINE as u32;
 
 /// Signed distance at the nodes of two grids, one four times finer near the skin; negative inside, in the mesh's unit.

@@ -6,12 +6,12 @@ use glam::{Vec3, Vec3A};
 
 use crate::Mesh;
 
-/// Triangles in a leaf at most.
+/// Most triangles in a leaf.
 const LEAF: usize = 4;
 /// A branch farther away than this many of its own radii counts as one dipole in the winding number.
 const FAR: f32 = 2.5;
 
-/// A little more than 1, by which a bound is widened so that rounding cannot break it.
+/// Slightly above 1. Widens a bound so that rounding cannot break it.
 const ROUNDING: f32 = 1.001;
 
 /// A triangle's corners.
@@ -27,21 +27,21 @@ struct Node {
     count: u32,
 }
 
-/// What a branch is to a far point: the winding number of its triangles as one dipole.
+/// A branch as seen from far away: the winding number of its triangles as one dipole.
 #[derive(Clone, Debug)]
 struct Dipole {
-    /// Mean of the triangles' middles by area.
+    /// Mean of the triangles' middles, weighted by area.
     middle: Vec3A,
     /// Sum of the triangles' area vectors.
     area: Vec3A,
-    /// No corner lies farther from `middle`.
+    /// Largest distance of a corner from `middle`.
     radius: f32,
 }
 
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
-    /// One for each node.
+    /// One per node.
     dipoles: Vec<Dipole>,
     triangles: Vec<Triangle>,
 }
@@ -95,7 +95,7 @@ impl Tree {
         best.sqrt()
     }
 
-    /// How often the surface winds about `p`: 1 inside, 0 outside, between where the surface has gaps.
+    /// The winding number of the surface around `p`: 1 inside, 0 outside, in between where the surface has gaps.
     pub(super) fn winding(&self, p: Vec3) -> f32 {
         let p = Vec3A::from(p);
         let mut turns = 0.0;
@@ -133,7 +133,7 @@ impl Tree {
         if self.is_inside(p) { -distance } else { distance }
     }
 
-    /// Signed distance at `p`, at the length `away` of a place whose signed distance is `known`.
+    /// Signed distance at `p`, at the length `away` from a place whose signed distance is `known`.
     ///
     /// The distance changes no faster than the place, so where both distances together exceed the length between
     /// there is no skin between: the sign carries over, and the winding number is seldom needed.

@@ -1,4 +1,4 @@
-//! What the air does at a point, as the readable steppers ask for it.
+//! The air at a point, as the f64 steppers evaluate it.
 
 use super::{ForceSpace, FrameInput};
 use crate::scalar::Vector;
@@ -9,7 +9,7 @@ pub(super) trait Air<S> {
     fn force(&self, at: Vector<S>) -> Vector<S>;
 }
 
-/// The field of a frame, given in some space.
+/// The field of a frame, in its own space.
 pub(super) struct Breeze<'a> {
     pub input: &'a FrameInput<'a>,
     pub space: ForceSpace,

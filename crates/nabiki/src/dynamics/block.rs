@@ -15,7 +15,7 @@ use super::transpose::write_points;
 /// Rows of points kept on the stack before they are written out strand by strand.
 const ROWS: usize = RUN + 1;
 
-/// The most segments of a strand that a pass takes at once.
+/// The most segments of a strand in one pass.
 pub(super) const RUN: usize = 15;
 
 /// Up to sixteen consecutive strands. Shorter ones are filled up with segments of no length, and missing ones with
@@ -27,14 +27,14 @@ pub(super) struct Block {
     points: [u32; LANES],
     /// Segments of the longest strand.
     pub segments: u32,
-    /// Number of its first segment among those of all blocks.
+    /// Index of its first segment among those of all blocks.
     first_segment: u32,
-    /// Number of its first strand.
+    /// Index of its first strand.
     pub first_strand: u32,
 }
 
 impl Block {
-    /// Packs strands given by root and number of segments, at most sixteen, behind `first_segment` rows of others.
+    /// Packs strands given by root and number of segments, at most sixteen, after `first_segment` rows of others.
     pub fn new(first_strand: usize, first_segment: usize, strands: impl Iterator<Item = (Vec3, usize)>) -> Self {
         let mut block = Self {
             roots: [Row::default(); 3],
@@ -53,13 +53,13 @@ impl Block {
         block
     }
 
-    /// Adds to what tells its hair from other hair: where it is rooted, and into how many points it is cut.
+    /// Adds to the hash that identifies the hair: its roots and its numbers of points.
     pub fn identify(&self, identity: &mut Identity) {
         self.roots.iter().for_each(|row| identity.numbers(&row.0));
         self.points.iter().for_each(|&count| identity.word(count));
     }
 
-    /// Where its segments lie among those of all blocks.
+    /// The range of its segments among those of all blocks.
     pub fn rows(&self) -> Range<usize> {
         let first = self.first_segment as usize;
         first..first + self.segments as usize
@@ -70,8 +70,8 @@ impl Block {
         self.points.iter().map(|&n| n as usize).sum()
     }
 
-    /// Goes from `start`, which is `roots` but for walks through another space, to the tips, and writes the points where
-    /// they are wanted.
+    /// Goes to the tips from `start`, which is `roots` except in another space, and writes the points where the caller
+    /// wants them.
     #[inline(always)]
     pub fn walk<State, Shape>(
         &self,
@@ -95,7 +95,7 @@ impl Block {
             if after.is_empty() {
                 break;
             }
-            // The last row is the first of the next ones, and written once more.
+            // The last row is the first of the next ones, so it is written again.
             rows[0] = rows[count];
             (states, shapes, written) = (after, shapes_after, written + count);
         }
@@ -118,7 +118,7 @@ pub(super) trait Pass<State, Shape> {
     );
 }
 
-/// What is done to up to [`RUN`] segments in a row: takes the first of the points to all others, one more than segments.
+/// Does the same for up to [`RUN`] segments in a row: takes the first of the points to all others, one more than segments.
 pub(super) trait RunPass<State, Shape> {
     fn run(&mut self, states: &mut [State], shapes: &[Shape], next: Option<(&State, &Shape)>, points: &mut [PointRow]);
 }

@@ -1,4 +1,4 @@
-//! A field in one frame, as hair in head space asks for it.
+//! A field in one frame, seen from hair in head space.
 
 use glam::{Mat3, Vec3};
 
@@ -11,7 +11,7 @@ use crate::field::Field;
 pub(super) struct FieldFrame<'a> {
     field: &'a dyn Field,
     frame: u32,
-    /// Columns of the rotation from head space to the space that the field is given in.
+    /// Columns of the rotation from head space to the space of the field.
     field_from_head: [[f32; 3]; 3],
     head_origin: [f32; 3],
     head_from_field: [[f32; 3]; 3],
@@ -33,7 +33,7 @@ impl<'a> FieldFrame<'a> {
         }
     }
 
-    /// The force that holds everywhere, if there is one (head space).
+    /// The force if it is the same everywhere (head space).
     pub fn uniform(&self) -> Option<[f32; 3]> {
         self.field.uniform(self.frame).map(|force| rotate(&self.head_from_field, force.to_array()))
     }

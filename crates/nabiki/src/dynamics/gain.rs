@@ -69,16 +69,16 @@ pub(super) struct SegmentShape {
     pub gain: f64,
     /// eps_i c_i.
     pub gain_in_gamma: f64,
-    /// Distance of the segment's end from the root as a part of the strand's length, 0..1; both from where the strand is
-    /// held on, and 0 before.
+    /// Distance of the segment's end from the root as a part of the strand's length, 0..1. Both count from where the
+    /// strand is held, and are 0 before.
     pub along: f64,
-    /// The same of its beginning and of its middle.
+    /// The same for its beginning and its middle.
     pub begin: f64,
     pub middle: f64,
 }
 
 impl SegmentShape {
-    /// eps_i; 1 where nothing moves the segment.
+    /// eps_i; 1 if nothing moves the segment.
     pub fn eps(&self) -> f64 {
         if self.gain > 0.0 { self.gain_in_gamma / self.gain } else { 1.0 }
     }
@@ -96,15 +96,15 @@ pub(super) fn segment_shapes(
 ) -> Result<Vec<SegmentShape>, SettingError> {
     let thing = || format!("hair strand {s}");
     if strand.len() < 2 {
-        return Err(SettingError::new(thing(), format!("{} points", strand.len()), "needs at least 2 points"));
+        return Err(SettingError::new(thing(), "", format!("has {} points: a strand needs at least 2", strand.len())));
     }
     if let Some(p) = strand.iter().find(|p| !p.is_finite()) {
         return Err(SettingError::new(thing(), p, "every coordinate must be a finite number"));
     }
     let lengths: Vec<f64> = strand.windows(2).map(|w| w[0].as_dvec3().distance(w[1].as_dvec3())).collect();
     if let Some(i) = lengths.iter().position(|&length| length as f32 <= 0.0) {
-        let remedy = "remove the doubled point: a segment needs a direction";
-        return Err(SettingError::new(thing(), format!("segment {} of length 0", i + 1), remedy));
+        let remedy = format!("has segment {} of length 0: remove the duplicate point", i + 1);
+        return Err(SettingError::new(thing(), "", remedy));
     }
     let d = f64::from(dynamics.segment_length);
     let total: f64 = lengths[held..].iter().sum();

@@ -1,4 +1,4 @@
-//! The paper's form of the motion: two angles a segment, equation (7).
+//! The paper's form of the motion: two angles per segment, equation (7).
 
 mod angles;
 mod force_source;

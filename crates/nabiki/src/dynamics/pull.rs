@@ -1,8 +1,8 @@
-//! What pulls on hair besides the field, as the check of stability sees it: by name, and no stronger than so much.
+//! What pulls on hair besides the field, for the stability check: a name and a bound.
 
-/// A force on hair besides the field, as the check of stability sees it.
+/// A force on hair besides the field, for the stability check.
 pub(super) trait Pull {
-    /// What a refusal calls it.
+    /// Its names in an error.
     fn name(&self) -> Name;
 
     /// Its setting.
@@ -12,12 +12,12 @@ pub(super) trait Pull {
     fn strongest(&self) -> f64;
 }
 
-/// What a refusal calls a pull.
+/// The names of a pull in an error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Name {
     /// Its setting in a scene.
     pub setting: &'static str,
-    /// The same in words.
+    /// Its name in words.
     pub words: &'static str,
     /// Its term in the sum that must stay below 4.
     pub term: &'static str,

@@ -59,7 +59,7 @@ impl Reference {
     }
 }
 
-/// Shows where the strands of a twin are: `points` in f64, and rounded as the points of `strands`.
+/// Shows the state of a twin: `points` in f64, and rounded as the points of `strands`.
 pub(super) fn publish<'a>(
     points: impl Iterator<Item = &'a Vector<f64>>,
     positions: &mut [DVec3],

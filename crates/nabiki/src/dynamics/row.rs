@@ -19,19 +19,19 @@ pub(super) fn lane([x, y, z]: &PointRow, lane: usize) -> [f32; 3] {
     [x.0[lane], y.0[lane], z.0[lane]]
 }
 
-/// Puts one strand's in its place.
+/// Sets that of one strand.
 #[inline(always)]
 pub(super) fn set_lane(row: &mut PointRow, lane: usize, [x, y, z]: [f32; 3]) {
     (row[0].0[lane], row[1].0[lane], row[2].0[lane]) = (x, y, z);
 }
 
-/// The point of one strand that lies `length` beyond its point in a row.
+/// The point of one strand at `length` from its point in a row.
 #[inline(always)]
 pub(super) fn beyond([x, y, z]: &PointRow, lane: usize, length: f32, direction: [f32; 3]) -> [f32; 3] {
     scale_add(length, direction, [x.0[lane], y.0[lane], z.0[lane]])
 }
 
-/// A rotation, given by its columns, of `v`.
+/// `v` rotated; the rotation is given by its columns.
 #[inline(always)]
 pub(super) fn rotate([x, y, z]: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
     [

@@ -1,4 +1,4 @@
-//! Hair of either form on its way through the frames.
+//! Hair of either form through the frames.
 
 use glam::Vec3;
 
@@ -29,7 +29,7 @@ impl Runner {
         Self::beside(strands, ids, dynamics, field, None)
     }
 
-    /// The same hair, at rest, with other settings; `strands` are those that it was made of.
+    /// The same hair, at rest, with other settings; `strands` are those that it was built from.
     pub fn with_dynamics(
         &self,
         strands: &Strands,
@@ -60,7 +60,7 @@ impl Runner {
         Ok(runner)
     }
 
-    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was made of.
+    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was built from.
     pub fn check_field(&self, strands: &Strands, field: &dyn Field) -> Result<(), SettingError> {
         match &self.form {
             OfForm::Paper(runner) => runner.check_field(strands, &self.ids, field),
@@ -83,7 +83,7 @@ impl Runner {
         }
     }
 
-    /// What the carriers left in the frame that this is at; none where hair feels no neighbours.
+    /// The carriers' grid in the current frame; none if hair feels no neighbours.
     pub fn crowd(&self) -> Option<&free::Crowd> {
         match &self.form {
             OfForm::Paper(_) => None,
@@ -91,7 +91,7 @@ impl Runner {
         }
     }
 
-    /// Stands where the same hair stands, be it under other settings, and shows its points, `shown`; no change if it is refused.
+    /// Takes the state of the same hair, even with other settings, and shows its points, `shown`. No change if it is refused.
     pub fn set_state(
         &mut self,
         of: &Self,
@@ -111,14 +111,14 @@ impl Runner {
         match (&mut self.form, &of.form) {
             (OfForm::Paper(runner), OfForm::Paper(of)) => runner.set_state(of),
             (OfForm::Free(runner), OfForm::Free(of)) => runner.set_state(of, headers.as_ref(), width),
-            // Refused by now.
+            // Already refused above.
             _ => {}
         }
         points.copy_from_slice(shown);
         Ok(())
     }
 
-    /// Where it stands, as bytes, with the frame and the points that are shown.
+    /// Its state as bytes, with the frame and the shown points.
     pub fn state_bytes(&self, frame: u32, points: &[Vec3]) -> Vec<u8> {
         let mut writer = Writer::new(&Header { frame, ..self.header(points) });
         writer.points(points);
@@ -129,7 +129,7 @@ impl Runner {
         writer.finish()
     }
 
-    /// Stands where such bytes say, and gives their frame; no change if they are refused.
+    /// Takes the state from such bytes, and returns their frame. No change if they are refused.
     pub fn set_state_bytes(
         &mut self,
         bytes: &[u8],
@@ -154,10 +154,10 @@ impl Runner {
         Header { points: points.len() as u32, numbers: header.numbers + 3 * points.len() as u64, ..header }
     }
 
-    /// The head or a body came at once where it is in the next step.
+    /// The head or a body jumped to where it is in the next step.
     pub fn jumped(&mut self) {
         match &mut self.form {
-            // It knows no bodies.
+            // The paper's form has no bodies.
             OfForm::Paper(_) => {}
             OfForm::Free(runner) => runner.jumped(),
         }
@@ -179,7 +179,7 @@ impl Runner {
         }
     }
 
-    /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
+    /// Moves the hair through many frames, the first of them rest if `from_rest`.
     pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
         match &mut self.form {
             OfForm::Paper(runner) => runner.run(from_rest, inputs, width, pages),

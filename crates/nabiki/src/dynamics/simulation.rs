@@ -24,7 +24,7 @@ pub enum VectorWidth {
 }
 
 impl VectorWidth {
-    /// What of the machine has vectors so wide. All that is stepped is dispatched by this one, so that it is compiled once for each.
+    /// CPU features for vectors of this width. All stepping is dispatched here, so it is compiled once for each.
     pub(super) fn arch(self) -> Arch {
         match self {
             Self::Widest => Arch::new(),

@@ -49,7 +49,7 @@ pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) ->
     Err(unstable(&[Named { name: "strand", strands, ids: &[] }], dynamics, field))
 }
 
-/// What decides whether a field is stable: the segment for which the least force is too much.
+/// What decides whether a field is stable: the segment that tolerates the least force.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stability {
     /// c_i.
@@ -59,10 +59,10 @@ pub(crate) struct Stability {
 }
 
 impl Stability {
-    /// Refuses no strands, and those that cannot be moved.
+    /// Refuses an empty set of strands, and strands that cannot be moved.
     pub fn of(strands: &Strands, dynamics: &Dynamics) -> Result<Self, SettingError> {
         if strands.is_empty() {
-            return Err(SettingError::new("hair", "0 strands", "nothing to simulate; give at least one strand"));
+            return Err(SettingError::new("hair", "", "has 0 strands: give at least one"));
         }
         let (mut worst, mut least) = (Self { gain: 0.0, own: 0.0 }, f64::INFINITY);
         let own = dynamics.form.pulls().iter().map(|pull| pull.strongest()).sum::<f64>();
@@ -86,7 +86,7 @@ impl Stability {
         self.gain * (f64::from(force) + self.own) < 4.0
     }
 
-    /// The strongest force that [`holds`](Self::holds), of hair that is stable without one.
+    /// The strongest force that [`holds`](Self::holds), for hair that is stable without a force.
     pub fn strongest_force(&self) -> f32 {
         let mut force = ((4.0 / self.gain - self.own) as f32).min(f32::MAX);
         while force > 0.0 && !self.holds_force(force) {
@@ -96,16 +96,16 @@ impl Stability {
     }
 }
 
-/// Some hair, and what one of its strands is called.
+/// Some hair, and the name of its strands in errors.
 pub(super) struct Named<'a> {
     pub name: &'a str,
     pub strands: &'a Strands,
-    /// Their numbers in the set that they are some of; none where they are all.
+    /// Their numbers in the larger set; empty if they are all of it.
     pub ids: &'a [u32],
 }
 
 impl Named<'_> {
-    /// What strand `s` is called, with the length that moves.
+    /// The name of strand `s`, with the length that moves.
     fn strand(&self, s: usize, shapes: &[SegmentShape]) -> String {
         let number = self.ids.get(s).map_or(s, |&id| id as usize);
         let moving: f64 = shapes.iter().filter(|shape| shape.gain > 0.0).map(|shape| shape.length).sum();
@@ -114,7 +114,7 @@ impl Named<'_> {
     }
 }
 
-/// Where hair is least stable, and how much room each part has.
+/// Where hair is least stable, and the room left for each part.
 struct Worst {
     /// c_i times all that pulls.
     reached: f64,
@@ -122,7 +122,7 @@ struct Worst {
     place: String,
     /// All that pulls there, the field's force last.
     parts: Vec<f64>,
-    /// All others being as they are, anywhere: by how many times each pull may be as large as it is, and how large the force.
+    /// With all others unchanged, everywhere: the factor by which each pull may grow, and the largest force.
     rooms: Vec<f64>,
 }
 
@@ -137,7 +137,7 @@ impl Worst {
                 let shapes = dynamics.form.shapes(dynamics, strand, s).unwrap_or_default();
                 for shape in shapes.iter().filter(|shape| shape.gain > 0.0) {
                     for part in (0..=last).filter(|&part| parts[part] > 0.0) {
-                        // Never from the sum of all, in which one that is too large swallows the others.
+                        // Never from the sum of all, in which a part that is too large would swallow the others.
                         let others: f64 = (0..=last).filter(|&other| other != part).map(|other| parts[other]).sum();
                         let room = 4.0 / shape.gain - others;
                         rooms[part] = rooms[part].min(if part == last { room } else { room / parts[part] });
@@ -154,8 +154,8 @@ impl Worst {
     }
 }
 
-/// Why hair that can be moved is unstable under a field: what pulls most where it is least stable, and how much of that would
-/// hold beside all else.
+/// Why movable hair is unstable under a field: the largest pull where hair is least stable, and how much of it would
+/// hold beside all others.
 pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Field) -> SettingError {
     let (pulls, strongest) = (dynamics.form.pulls(), f64::from(field.strongest()));
     let Worst { reached, place, parts, rooms } = Worst::of(hair, dynamics, &pulls, strongest);
@@ -163,16 +163,15 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     let sum = if terms.is_empty() { "|F|".to_owned() } else { format!("(|F| + {})", terms.join(" + ")) };
     let (gain, finer) = match dynamics.form {
         Form::Paper => ("c_i", ""),
-        Form::Free(_) => ("A h^2 / L", "give free.substeps more, "),
+        Form::Free(_) => ("A h^2 / L", "raise free.substeps, "),
     };
-    let ways = format!(
-        "{finer}make motion.time_step smaller, or set motion.inertia_length_floor so that short hair is held by its neighbours"
-    );
+    let ways =
+        format!("{finer}lower motion.time_step, or set motion.inertia_length_floor so that neighbours hold short hair");
     let refused = |thing: &str, value: String, keep: String| {
         let reached = if reached < 1e6 { format!("{reached:.3}") } else { format!("{reached:.1e}") };
         let metres = in_metres(hair, dynamics);
         let remedy = format!(
-            "unstable: {gain} {sum} reaches {reached} at {place}, and must stay below 4; {keep}, {ways}{metres}"
+            "unstable: {gain} {sum} reaches {reached} at {place}, but must stay below 4; {keep}, {ways}{metres}"
         );
         SettingError::new(thing, value, remedy)
     };
@@ -182,7 +181,7 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     match largest_first.iter().find(|&&part| rooms[part] > 0.0 && rooms[part].is_finite()) {
         Some(&part) if part == pulls.len() => {
             let largest = rooms[part];
-            // A force of exactly the largest is one too strong.
+            // A force of exactly the limit is too strong.
             let below = largest.next_down();
             let (thing, value) =
                 field.first_above(below).unwrap_or_else(|| ("force".to_owned(), field.strongest().to_string()));
@@ -209,7 +208,7 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     }
 }
 
-/// Hair shorter than this (cm) at its longest, about a head whose mean half axis is below it: a person's in metres, not in cm.
+/// Hair with a longest strand below this (cm), on a head with a mean half axis below it, is in metres, not in cm.
 const METRES_CM: f32 = 1.0;
 
 /// What else may be wrong with hair that is unstable: its unit.
@@ -243,7 +242,7 @@ mod tests {
     proptest! {
         #[test]
         fn what_a_refusal_says_would_hold_holds(
-            // Of moderate numbers, and of such as swallow all others or overflow.
+            // Moderate numbers, and ones that swallow all others or overflow.
             powers in prop::array::uniform2(prop_oneof![3 => 1.0_f32..8.0, 1 => 8.0_f32..38.5]),
             cuts in prop::collection::vec((2_usize..12, 3.0_f32..20.0), 1..4),
         ) {
@@ -262,16 +261,16 @@ mod tests {
                 let field = KeyframedField::new(&[Keyframe { through: 9, vector: Vec3::X * force }]).unwrap();
                 check_field(&hair, &dynamics, &field).err()
             };
-            // What is too much beside all else is named first, so a few lines mend any scene.
+            // What is too much even without the rest is named first, so a few errors fix any scene.
             for _ in 0..5 {
                 let Some(error) = refused(&free, force) else { return Ok(()) };
                 let Some((_, limit)) = error.remedy.split_once(" below ").and_then(|(_, after)| after.split_once(" below ")) else {
-                    // Nothing alone mends it: the largest goes.
+                    // Nothing alone fixes it: remove the largest.
                     free.form.gravity = 0.0;
                     continue;
                 };
                 let limit: f32 = limit.split(',').next().unwrap().parse().unwrap();
-                // Forces are given to four places.
+                // Forces are printed with four decimals.
                 let within = 0.999 * limit;
                 match error.thing.to_string().as_str() {
                     "free.gravity" => free.form.gravity = within,

@@ -1,5 +1,5 @@
-//! Where strands of the specification stand at a frame. Up to the frame in which an unknown is first felt they move as ever: what is
-//! solved for again and again need not be stepped from rest each time.
+//! The state of strands of the specification at a frame. Up to the frame in which an unknown is first felt nothing
+//! changes, so repeated solves need not step from rest each time.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -14,21 +14,21 @@ use crate::free_form::{FreeMotion, Neighbours};
 use crate::pose::Pose;
 use crate::strands::Strands;
 
-/// Some strands, and how they move.
+/// Some strands, and their motion.
 pub(crate) struct Moved<'a> {
     pub strands: &'a Strands,
-    /// Their numbers in the set they are some of.
+    /// Their numbers in the larger set.
     pub ids: &'a [u32],
     pub dynamics: &'a Dynamics,
     pub poses: &'a [Pose],
-    /// Where they stand at the last frame before any unknown is felt; none: at rest.
+    /// Their state at the last frame before any unknown is felt; none: at rest.
     pub standing: Option<&'a Standing>,
-    /// What the carriers leave in the frame in which they stand and in all after it; none, and they are stepped by the specification, too.
+    /// The carriers' grid in that frame and all after it; none if the specification steps them, too.
     pub crowds: Option<&'a Crowds>,
 }
 
 impl Moved<'_> {
-    /// The frame that they are moved on from.
+    /// The frame from which they continue.
     pub(super) fn from(&self) -> u32 {
         self.standing.map_or(0, |standing| standing.frame)
     }
@@ -41,19 +41,19 @@ pub(crate) struct Standing {
     pub(super) hair: Standings,
 }
 
-/// The strands, in the form of their motion.
+/// The strands, by form of their motion.
 #[derive(Clone, Debug)]
 pub(super) enum Standings {
     Paper(Vec<paper::Strand<f64>>),
     Free(Vec<free::Strand<f64>>),
 }
 
-/// What the carriers leave in some frames, by the fast stepper.
+/// The carriers' grids in some frames, by the fast stepper.
 #[derive(Clone, Debug)]
 pub(crate) struct Crowds(pub(super) Vec<Crowd>);
 
 impl Crowds {
-    /// From the frame in which a timeline stands to the one before `last`, to which it goes; none where hair feels no neighbours.
+    /// From the timeline's current frame to the one before `last`, to which it goes; none if hair feels no neighbours.
     pub fn of(timeline: &mut Timeline, last: u32) -> Option<Self> {
         let mut left = Vec::new();
         while timeline.frame() < last {
@@ -65,7 +65,7 @@ impl Crowds {
 }
 
 impl Standing {
-    /// Takes strands from rest to a frame. `timeline`: their fast motion in this field, at rest; it says what the carriers leave.
+    /// Takes strands from rest to a frame. `timeline`: their fast motion in this field, at rest; it provides the carriers' grids.
     ///
     /// # Errors
     /// Strands that cannot be moved.
@@ -115,7 +115,7 @@ impl Standing {
     }
 }
 
-/// The carriers at rest, and what they leave.
+/// The carriers at rest, and their grid.
 pub(super) fn carriers_at_rest(
     dynamics: &Dynamics,
     free: &FreeMotion,

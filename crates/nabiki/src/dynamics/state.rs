@@ -10,9 +10,9 @@ use crate::METHOD_VERSION;
 use crate::error::SettingError;
 use crate::random::mix;
 
-/// What such bytes begin with; the last one is the version of their layout.
+/// The first bytes of a state; the last of them is the version of the layout.
 const MAGIC: [u8; 8] = *b"nabiki.\x01";
-/// Magic, length of all, version of the method, and what [`Header`] has.
+/// Magic, total length, version of the method, and [`Header`].
 const HEADER: usize = 72;
 const CHECKSUM: usize = 8;
 
@@ -24,14 +24,14 @@ pub(super) struct Header {
     pub frame: u32,
     /// Points that are shown.
     pub points: u32,
-    /// All numbers but those of the carriers.
+    /// All numbers except those of the carriers.
     pub numbers: u64,
     pub of_carriers: u64,
-    /// What tells the hair from other hair.
+    /// Identifies the hair.
     pub hair: u64,
     /// The same of the carriers; 0 without any.
     pub carriers: u64,
-    /// What tells the bodies, gaps to which are kept, from others; 0 without any.
+    /// Identifies the bodies of the stored gaps; 0 without any.
     pub bodies: u64,
 }
 
@@ -41,24 +41,30 @@ impl Header {
         (self.carriers, self.of_carriers) == (other.carriers, other.of_carriers)
     }
 
-    /// Refuses the state of what this is not.
+    /// Refuses the state of anything else.
     pub fn check(&self, own: &Self) -> Result<(), SettingError> {
         let form = |header: &Self| if header.is_free { "the free form" } else { "the paper's form" };
         if self.is_free != own.is_free {
-            let remedy = format!("this hair moves by {}: give it that motion.form, or begin from rest", form(own));
-            return Err(refused(format!("of {}", form(self)), &remedy));
+            let remedy = format!(
+                "is of {}, but this hair moves by {}: set the same motion.form, or begin from rest",
+                form(self),
+                form(own)
+            );
+            return Err(refused(String::new(), &remedy));
         }
         if (self.points, self.numbers, self.hair) != (own.points, own.numbers, own.hair) {
-            let of = format!("of other hair, of {} points", self.points);
-            let remedy =
-                format!("this hair has {}; give the strands that it was saved from, or begin from rest", own.points);
-            return Err(refused(of, &remedy));
+            let remedy = format!(
+                "is of other hair, of {} points, but this hair has {}: give the strands it was saved from, or begin \
+                 from rest",
+                self.points, own.points
+            );
+            return Err(refused(String::new(), &remedy));
         }
         Ok(())
     }
 }
 
-/// What tells things from others: a number that depends on every word and on their order.
+/// A hash that depends on every word and on their order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Identity(u64);
 
@@ -67,7 +73,7 @@ impl Identity {
         Self(0)
     }
 
-    /// Two that differ in one word differ for sure, and others but once in 2^64.
+    /// Inputs that differ in one word never collide; others once in 2^64.
     pub fn word(&mut self, word: u32) {
         self.0 = mix(self.0 ^ u64::from(word));
     }
@@ -76,13 +82,13 @@ impl Identity {
         numbers.iter().for_each(|x| self.word(x.to_bits()));
     }
 
-    /// Never 0, which stands for nothing.
+    /// Never 0, which means none.
     pub fn get(self) -> u64 {
         self.0.max(1)
     }
 }
 
-/// Bytes of a state as they are put together.
+/// Writes the bytes of a state.
 pub(super) struct Writer(Vec<u8>);
 
 impl Writer {
@@ -115,39 +121,44 @@ impl Writer {
     }
 }
 
-/// Bytes of a state that are whole, as they are taken apart.
+/// Reads the bytes of a complete state.
 pub(super) struct Reader<'a> {
     pub header: Header,
     numbers: &'a [[u8; 4]],
 }
 
 impl<'a> Reader<'a> {
-    /// `own`: what they are to be the state of.
+    /// `own`: what the state must be of.
     ///
     /// # Errors
     /// Bytes that are no state, cut or altered, and the state of anything else.
     pub fn new(bytes: &'a [u8], own: &Header) -> Result<Self, SettingError> {
         let found = || format!("{} bytes", bytes.len());
         if bytes.len() < HEADER + CHECKSUM || bytes[..7] != MAGIC[..7] {
-            return Err(refused(found(), "were not written by state_bytes, or are cut short"));
+            return Err(refused(found(), "was not written by state_bytes, or is cut short"));
         }
         if bytes[7] != MAGIC[7] {
-            let remedy =
-                format!("written by another version of nabiki, this one reads layout {}: begin from rest", MAGIC[7]);
-            return Err(refused(format!("of layout {}", bytes[7]), &remedy));
+            let remedy = format!(
+                "has layout {} of another version of nabiki, but this one reads layout {}: begin from rest",
+                bytes[7], MAGIC[7]
+            );
+            return Err(refused(String::new(), &remedy));
         }
         let word = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         let long = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         if long(8) != bytes.len() as u64 {
-            return Err(refused(format!("{} of {}", found(), long(8)), "are cut short, or followed by others"));
+            return Err(refused(format!("{} of {}", found(), long(8)), "is cut short, or has bytes after its end"));
         }
         let end = bytes.len() - CHECKSUM;
         if checksum(&bytes[..end]) != long(end) {
-            return Err(refused(found(), "are altered: their checksum does not match"));
+            return Err(refused(found(), "is altered: its checksum does not match"));
         }
         if word(16) != METHOD_VERSION {
-            let remedy = format!("this is version {METHOD_VERSION}, in which hair moves differently: begin from rest");
-            return Err(refused(format!("of METHOD_VERSION {}", word(16)), &remedy));
+            let remedy = format!(
+                "has METHOD_VERSION {}, but hair moves differently in this one, {METHOD_VERSION}: begin from rest",
+                word(16)
+            );
+            return Err(refused(String::new(), &remedy));
         }
         let header = Header {
             is_free: word(20) != 0,
@@ -162,7 +173,7 @@ impl<'a> Reader<'a> {
         header.check(own)?;
         let numbers: &[[u8; 4]] = bytes[HEADER..end].as_chunks().0;
         if header.numbers.checked_add(header.of_carriers) != Some(numbers.len() as u64) {
-            return Err(refused(found(), "do not match their header"));
+            return Err(refused(found(), "does not match its header"));
         }
         Ok(Self { header, numbers })
     }

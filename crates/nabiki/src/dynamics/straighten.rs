@@ -21,7 +21,7 @@ pub fn straightened(strands: &Strands, motion: &Motion, polar_axis: Vec3) -> Str
         for (i, w) in strands.strand(s).windows(2).enumerate() {
             let segment = w[1].as_dvec3() - w[0].as_dvec3();
             let segment = laid_on(axis, within, segment);
-            // From the rounded point on, so that a segment along y has x and z of its neighbour to the bit.
+            // From the rounded point on, so that a segment along y has exactly the x and z of its neighbour.
             let from = straight.strand(s)[i].as_dvec3();
             straight.strand_mut(s)[i + 1] = (from + segment).as_vec3();
         }

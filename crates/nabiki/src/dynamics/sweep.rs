@@ -8,24 +8,24 @@ use pulp::NullaryFnOnce;
 use super::VectorWidth;
 use super::block::Block;
 
-/// Blocks a core takes at a time where they go through one frame: enough to hide the hand-over, few enough to share
-/// 300 strands.
+/// Blocks that a core takes at a time in a pass over one frame: enough to hide the hand-over, few enough to share 300
+/// strands.
 const GRAIN: usize = 8;
 
-/// A form of the motion: all that no frame changes of some hair, packed in blocks, and how it is moved.
+/// A form of the motion: packed hair, everything that does not change from frame to frame, and the step.
 pub(super) trait Swept: Sync {
-    /// What moves, of one segment of sixteen strands.
+    /// The moving state of one segment of sixteen strands.
     type State: Copy + Send + Sync;
-    /// What becomes of the hair in one frame.
+    /// The mode of a frame.
     type Plan<'a>: Sync;
 
     fn blocks(&self) -> &[Block];
 
-    /// Takes one block through one frame, and writes its points where they are wanted.
+    /// Takes one block through one frame, and writes its points where the caller wants them.
     fn frame(&self, block: &Block, plan: &Self::Plan<'_>, states: &mut [Self::State], page: Option<&mut [Vec3]>);
 }
 
-/// Takes every block through all `plans`, one block after another, so that its states stay in the nearest cache.
+/// Takes every block through all `plans`, one block after another, so that its state stays in the nearest cache.
 pub(super) fn sweep<F: Swept>(
     form: &F,
     plans: &[F::Plan<'_>],
@@ -37,16 +37,16 @@ pub(super) fn sweep<F: Swept>(
     Sweep { form, plans, width, grain }.split(form.blocks(), states, pages);
 }
 
-/// Where points go to.
+/// Where points are written.
 pub(super) enum Pages<'a> {
-    /// Those of the last frame, and of no other.
+    /// Only those of the last frame.
     Last(&'a mut [Vec3]),
     /// Those of each frame.
     All(Vec<&'a mut [Vec3]>),
 }
 
 impl<'a> Pages<'a> {
-    /// The first `points` points of each page, and the others.
+    /// Splits each page after its first `points` points.
     fn split(self, points: usize) -> (Self, Self) {
         match self {
             Self::Last(page) => {
@@ -60,7 +60,7 @@ impl<'a> Pages<'a> {
         }
     }
 
-    /// Some points of frame `n` of `count`, if they are wanted.
+    /// Some points of frame `n` of `count`, if wanted.
     #[inline(always)]
     fn page(&mut self, n: usize, count: usize, points: Range<usize>) -> Option<&mut [Vec3]> {
         match self {
@@ -71,7 +71,7 @@ impl<'a> Pages<'a> {
     }
 }
 
-/// One pass over all blocks, halved between cores until a piece is small.
+/// One pass over all blocks, halved between cores until pieces are small.
 struct Sweep<'a, 'p, F: Swept> {
     form: &'a F,
     plans: &'a [F::Plan<'p>],

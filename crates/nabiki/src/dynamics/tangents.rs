@@ -1,4 +1,4 @@
-//! Strands on their way through the frames, with their derivatives by a few unknowns: forward-mode differentiation of the
+//! Strands through the frames, with their derivatives by a few unknowns: forward-mode differentiation of the
 //! specification, strand by strand on all cores.
 
 use std::ops::Range;
@@ -28,9 +28,9 @@ pub(crate) struct Asked {
 
 /// How what moves the hair depends on the unknowns.
 pub(crate) struct Change<'a> {
-    /// All that pushes.
+    /// Everything that pushes.
     pub field: &'a dyn Field,
-    /// What a wind of 1 along x, y and z makes of it.
+    /// The effect of a wind of 1 along x, y and z.
     pub of_wind: &'a [Arc<dyn Field>; 3],
     /// For each frame from 1 on: how the wind changes with each unknown.
     pub wind: &'a [Vec<DVec3>],
@@ -43,9 +43,9 @@ pub(crate) struct Change<'a> {
 /// Points in a frame, and for each of their coordinates how it changes with each unknown.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
-    /// Head space, cm, in the order asked for.
+    /// Head space, cm, in the requested order.
     pub places: Vec<DVec3>,
-    /// Three rows for each point, as many numbers in each as there are unknowns.
+    /// Three rows for each point, each with one number per unknown.
     pub tangents: Vec<f64>,
 }
 
@@ -59,8 +59,8 @@ pub(crate) fn tangents(moved: &Moved, change: &Change, asked: &[Asked]) -> Resul
     let mut points = Points { places: vec![DVec3::ZERO; asked.len()], tangents: vec![0.0; 3 * unknowns * asked.len()] };
     let mut first = 0;
     while first < unknowns {
-        // In the free form more than eight at a time are too many numbers for the registers: sixteen take more than three
-        // times as long. The paper's has its sines to share.
+        // In the free form more than eight at a time do not fit in the registers: sixteen take more than three times as
+        // long. In the paper's form they share the sines.
         let most = if moved.dynamics.form == Form::Paper { 16 } else { 8 };
         let count = (unknowns - first).min(most);
         let part = Part { moved, change, asked, columns: first..first + count, unknowns };
@@ -131,7 +131,7 @@ impl Part<'_> {
     }
 }
 
-/// Where the points of one strand go.
+/// The destination of the points of one strand.
 struct Sink<'a> {
     asked: &'a [Asked],
     places: &'a mut [DVec3],
@@ -141,7 +141,7 @@ struct Sink<'a> {
 }
 
 impl<'a> Sink<'a> {
-    /// One for each strand that something is asked of.
+    /// One for each requested strand.
     fn split(mut asked: &'a [Asked], points: &'a mut Points, columns: Range<usize>, unknowns: usize) -> Vec<Sink<'a>> {
         let (mut places, mut tangents) = (&mut points.places[..], &mut points.tangents[..]);
         let mut sinks = Vec::new();
@@ -161,12 +161,12 @@ impl<'a> Sink<'a> {
         self.asked[0].strand
     }
 
-    /// How many are asked for up to a frame.
+    /// The number of requests up to a frame.
     fn until(&self, frame: u32) -> usize {
         self.asked.partition_point(|asked| asked.frame <= frame)
     }
 
-    /// Takes what is asked for of a frame, the first of the sink's being number `from`; how many have been taken by then.
+    /// Stores the requested points of a frame; the sink's first is number `from`. Returns the number stored by then.
     fn take<const N: usize>(&mut self, mut from: usize, frame: u32, positions: &[Vector<Dual<N>>]) -> usize {
         while let Some(asked) = self.asked.get(from).filter(|asked| asked.frame == frame) {
             let p = positions[asked.node];
@@ -186,7 +186,7 @@ impl<'a> Sink<'a> {
 trait Walk<const N: usize>: Sync {
     type Strand: Send;
 
-    /// The strand where it stands.
+    /// The strand in its current state.
     fn begin(&self, s: usize) -> Result<Self::Strand, SettingError>;
 
     /// By input `n`.
@@ -229,7 +229,7 @@ struct FreeWalk<'a, const N: usize> {
     moved: &'a Moved<'a>,
     free: &'a FreeMotion,
     springs: Springs<Dual<N>>,
-    /// Of every input.
+    /// For every input.
     settings: Vec<free::Common<'a>>,
     airs: &'a [Gale<'a, N>],
 }
@@ -255,7 +255,7 @@ impl<const N: usize> Walk<N> for FreeWalk<'_, N> {
     }
 }
 
-/// Takes a strand that feels no other through all its frames.
+/// Takes a strand without neighbours through all its frames.
 fn alone<const N: usize, W: Walk<N>>(walk: &W, from: u32, sink: &mut Sink) -> Result<(), SettingError> {
     let s = sink.strand();
     let mut strand = walk.begin(s)?;
@@ -271,7 +271,7 @@ fn alone<const N: usize, W: Walk<N>>(walk: &W, from: u32, sink: &mut Sink) -> Re
     Ok(())
 }
 
-/// Takes strands frame by frame among their neighbours: what the carriers leave is held while tangents are taken.
+/// Takes strands frame by frame among their neighbours: the carriers' grids count as constant for the tangents.
 fn together<const N: usize>(
     walk: &FreeWalk<N>,
     neighbours: &Neighbours,
@@ -324,7 +324,7 @@ struct Stretch<'a, W: Walk<N>, const N: usize> {
 }
 
 impl<const N: usize, W: Walk<N>> Stretch<'_, W, N> {
-    /// All that it does is compiled again wherever it is dispatched: here alone.
+    /// Compiled again wherever it is dispatched: only here.
     #[inline(never)]
     fn run(self) {
         pulp::Arch::new().dispatch(self);
@@ -350,14 +350,13 @@ struct Gale<'a, const N: usize> {
     /// From head space to the space of the field.
     rotation: DQuat,
     position: DVec3,
-    /// The force (head space), where it is the same everywhere.
+    /// The force (head space), if it is the same everywhere.
     uniform: Option<Vector<Dual<N>>>,
-    /// How the wind changes with the unknowns (the field's space); none where it does not.
+    /// How the wind changes with the unknowns (the field's space); none if it does not.
     wind: Option<[DVec3; N]>,
 }
 
-/// Half the way over which a field's derivatives in space are taken (cm): the fields are given in f32, and smooth over
-/// centimetres.
+/// Half the distance for a field's derivatives in space (cm): fields are f32, and smooth over centimetres.
 const STEP_CM: f32 = 0.02;
 
 impl<'a, const N: usize> Gale<'a, N> {
@@ -383,7 +382,7 @@ impl<'a, const N: usize> Gale<'a, N> {
         Self { field, of_wind, frame, rotation, position, uniform, wind }
     }
 
-    /// The force at a point where it is not the same everywhere.
+    /// The force at a point, if it varies in space.
     #[inline(never)]
     fn at(&self, at: Vector<Dual<N>>) -> Vector<Dual<N>> {
         let point = (self.rotation * at.value() + self.position).as_vec3();

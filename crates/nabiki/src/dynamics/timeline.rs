@@ -30,7 +30,7 @@ pub struct Timeline {
     hair: Strands,
     runner: Runner,
     field: Arc<dyn Field>,
-    /// Of every frame; none for a head that stands still.
+    /// One per frame; empty for a head that does not move.
     poses: Vec<Pose>,
     frames: u32,
     width: VectorWidth,
@@ -166,7 +166,7 @@ impl Timeline {
         } else if self.frame < self.frames {
             let points = self.strands.points_mut();
             points.copy_from_slice(&self.film[self.film.len() - points.len()..]);
-            // The states are still those of another frame. Nothing goes on from the last: what lies behind begins at rest.
+            // The states are still those of another frame, so continuing from them is wrong: going back starts at rest.
             self.frame = self.frames;
         }
         Played { points: &self.film, hair: &self.hair }
@@ -215,12 +215,12 @@ impl Timeline {
         Ok(())
     }
 
-    /// What the carriers left in this frame; none where hair feels no neighbours.
+    /// The carriers' grid in this frame; none if hair feels no neighbours.
     pub(super) fn crowd(&self) -> Option<&free::Crowd> {
         self.runner.crowd()
     }
 
-    /// Stands where another timeline of the same hair stands; `false`, and no change, if that is other hair. Its field stays.
+    /// Takes the state of another timeline of the same hair; `false`, and no change, if that is other hair. Its field stays.
     pub(crate) fn stand_where(&mut self, of: &Self) -> bool {
         let (own, shown) = (self.strands.points_mut(), of.strands.points());
         let is_same = self.runner.set_state(&of.runner, self.width, own, shown).is_ok();
@@ -230,7 +230,7 @@ impl Timeline {
         is_same
     }
 
-    /// Puts another field in the place of this one, and leaves the hair where it stands: for who knows that both are the same up to there.
+    /// Replaces the field and keeps the state. The caller knows that both fields agree up to the current frame.
     ///
     /// # Errors
     /// As [`set_field`](Self::set_field).
@@ -266,7 +266,7 @@ impl Timeline {
         self.rewind();
     }
 
-    /// Goes to a frame that does not lie behind, or `from_rest`.
+    /// Goes to a frame that is not before the current one, or starts `from_rest`.
     fn go(&mut self, frame: u32, from_rest: bool) {
         let first = if from_rest { 0 } else { self.frame + 1 };
         let mut strands = std::mem::take(&mut self.strands);
@@ -315,7 +315,7 @@ impl<'a> Played<'a> {
     }
 }
 
-/// Refuses a head whose way is shorter than the time, or leads through places that are none.
+/// Refuses head poses that are too few or invalid.
 fn check_poses(poses: &[Pose], frames: u32) -> Result<(), SettingError> {
     if poses.is_empty() {
         return Ok(());

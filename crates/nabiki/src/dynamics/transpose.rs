@@ -6,11 +6,11 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::row::{LANES, PointRow, Row};
 
-/// Strands turned at once.
+/// Strands transposed at once.
 const FOUR: usize = 4;
 
-/// Writes rows of points, the first of them point number `first` of every strand, to `points`, where strand after
-/// strand has as many as `counts` says.
+/// Writes rows of points, the first of them point number `first` of every strand, to `points`, strand after strand,
+/// each with as many as `counts` gives.
 #[inline(always)]
 pub(super) fn write_points(rows: &[PointRow], first: usize, counts: &[u32; LANES], points: &mut [Vec3]) {
     let rows: &[Row] = rows.as_flattened();
@@ -28,7 +28,7 @@ pub(super) fn write_points(rows: &[PointRow], first: usize, counts: &[u32; LANES
         write_squares(&rows[..shared / FOUR * FOUR], group * FOUR, &mut strands);
         let mut done = shared / FOUR * FOUR;
         if done > 0 && done < shared {
-            // Numbers that the last square holds already are written again: fewer writes than one by one.
+            // Writes again some numbers that the last square wrote: fewer writes than one by one.
             let last = shared - FOUR..shared;
             write_squares(&rows[last.clone()], group * FOUR, &mut strands.each_mut().map(|s| &mut s[last.clone()]));
             done = shared;

@@ -66,7 +66,7 @@ impl BodyWindField {
     }
 }
 
-/// Velocity and acceleration in a frame, by central differences; at the ends, those beside them.
+/// Velocity and acceleration in a frame, by central differences; at the ends, those of the neighbouring frame.
 fn moving(places: &[DVec3], n: usize, frame_rate: f64) -> (DVec3, DVec3) {
     let last = places.len() - 1;
     if last == 0 {
@@ -121,7 +121,7 @@ mod tests {
         let poses = track(|n| Vec3::new(10.0 * n, 160.0, -2.5 * n));
         for smoothing in [0.0, 0.4, 3.0] {
             let field = wind(&BodyWind { smoothing, ..BodyWind::default() }, &poses);
-            // Averages reach beyond the ends: those are left out.
+            // Averages reach beyond the ends, which are left out.
             for frame in 20..40 {
                 let expected = -0.3 * 24.0 * Vec3::new(10.0, 0.0, -2.5);
                 assert!((field.at(Vec3::ONE, frame) - expected).length() < 1e-4, "{smoothing}");
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_head_that_is_thrown_up_presses_its_hair_down() {
-        // y = n^2 / 4 cm: 1/2 cm a frame and frame, 288 cm/s^2.
+        // y = n^2 / 4 cm: 1/2 cm per frame^2, 288 cm/s^2.
         let poses = track(|n| Vec3::new(0.0, 0.25 * n * n, 0.0));
         let field = wind(&BodyWind { drag: 0.0, footfall: 0.1, smoothing: 0.0 }, &poses);
         for frame in 0..60 {

@@ -32,7 +32,7 @@ words! {
 }
 
 impl Falloff {
-    /// Part of the radius within which the direction of a force that has none at its centre is let go to 0.
+    /// Part of the radius within which the direction of a force without one at its centre fades to 0.
     pub(super) const CORE: f32 = 0.05;
 
     /// The factor on the strength at a distance (cm), 0..1.
@@ -48,13 +48,13 @@ impl Falloff {
         for x in &mut x {
             *x = x.sqrt() / self.radius;
         }
-        // One law for all lanes: a choice in each would keep them from being one vector.
+        // One law for all lanes: a choice in each would prevent vector code.
         match self.law {
             FalloffLaw::None => x = [1.0; N],
             FalloffLaw::Linear => x.iter_mut().for_each(|x| *x = within(*x)),
             FalloffLaw::Smooth => {
                 for x in &mut x {
-                    // 3 w^2 - 2 w^3 of what is left of the way.
+                    // 3 w^2 - 2 w^3 of the remaining way.
                     let left = within(*x);
                     *x = left * left * left.mul_add(-2.0, 3.0);
                 }
@@ -70,7 +70,7 @@ impl Falloff {
     }
 }
 
-/// What is left of the way to the radius.
+/// The remaining part of the way to the radius.
 #[inline(always)]
 fn within(x: f32) -> f32 {
     (1.0 - x).max(0.0)
@@ -110,7 +110,7 @@ pub(super) fn largest(keys: &[EnvelopeKey]) -> f32 {
 /// Refuses keys of the table `at` whose frames do not ascend.
 pub(super) fn check_order(at: &Place, keys: &[EnvelopeKey]) -> Result<(), SettingError> {
     let Some(i) = keys.windows(2).position(|pair| pair[1].frame <= pair[0].frame) else { return Ok(()) };
-    let remedy = format!("must come after frame {}, that of the key before it", keys[i].frame);
+    let remedy = format!("must come after frame {}, the frame of the key before it", keys[i].frame);
     refused(&at.key("envelope").entry(i + 1).key("frame"), keys[i + 1].frame, remedy)
 }
 

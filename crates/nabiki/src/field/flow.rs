@@ -108,7 +108,7 @@ struct InFrame<'a> {
     wind: [f32; 3],
 }
 
-/// Newton's steps toward lambda. Half axes of 1 : 2 need three.
+/// Newton steps toward lambda. Half axes of 1 : 2 need three.
 const STEPS: usize = 4;
 
 impl InFrame<'_> {
@@ -212,7 +212,7 @@ impl Field for FlowField {
         self.wind.strongest() * self.largest_part()
     }
 
-    /// Blames the wind if that is too strong by itself, or else the way round the head.
+    /// Blames the wind if it is too strong by itself, or else the flow around the head.
     fn first_above(&self, limit: f64) -> Option<(String, String)> {
         let strongest = self.strongest();
         self.wind.first_above(limit).or_else(|| {
@@ -222,7 +222,7 @@ impl Field for FlowField {
         })
     }
 
-    /// No wind flows nowhere.
+    /// Without wind there is no flow.
     fn uniform(&self, frame: u32) -> Option<Vec3> {
         (self.far(frame) == Vec3::ZERO).then_some(Vec3::ZERO)
     }

@@ -49,7 +49,7 @@ pub struct GustField {
 impl GustField {
     /// Bands of frequencies, each with a wave of its own.
     const BANDS: i32 = 24;
-    /// Each band reaches this times as high as the one below it; the lowest begins at 0.
+    /// Ratio of a band's upper limit to that of the band below; the lowest begins at 0.
     const RATIO: f64 = 1.25;
 
     /// Multiplies `wind` by gusts. `frame_rate` is in frames per second, above 0.
@@ -125,7 +125,7 @@ impl Field for GustField {
         self.wind.strongest() * self.largest_factor()
     }
 
-    /// Blames the wind if that is too strong by itself, or else the gusts.
+    /// Blames the wind if it is too strong by itself, or else the gusts.
     fn first_above(&self, limit: f64) -> Option<(String, String)> {
         let strongest = self.strongest();
         self.wind.first_above(limit).or_else(|| {

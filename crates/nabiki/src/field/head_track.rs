@@ -1,4 +1,4 @@
-//! Where the head ellipsoid is in each frame, for fields that go round it.
+//! The position of the head ellipsoid in each frame, for fields that go around it.
 
 use glam::{Mat3, Vec3};
 
@@ -6,14 +6,14 @@ use crate::ellipsoid::Ellipsoid;
 use crate::error::SettingError;
 use crate::pose::{Pose, check_poses};
 
-/// The head ellipsoid on its way through the space of the field.
+/// The head ellipsoid through the frames, in the space of the field.
 #[derive(Clone, Debug)]
 pub(super) struct HeadTrack {
     pub ellipsoid: Ellipsoid,
     places: Vec<Place>,
 }
 
-/// Where the ellipsoid is in one frame.
+/// The position of the ellipsoid in one frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     /// Its centre (cm).
@@ -23,7 +23,7 @@ pub(super) struct Place {
 }
 
 impl HeadTrack {
-    /// `poses`: one a frame from frame 0 on, the last of which holds for good; none for a head that stands still.
+    /// `poses`: one per frame from frame 0 on, the last of which holds after that; none for a head that does not move.
     ///
     /// # Errors
     /// An ellipsoid or a pose that is none.

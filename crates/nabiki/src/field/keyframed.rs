@@ -54,7 +54,7 @@ impl KeyframedField {
     /// `force[j]`, counted from 0 as in overrides of a scene file.
     pub fn new(keyframes: &[Keyframe]) -> Result<Self, SettingError> {
         if keyframes.is_empty() {
-            return Err(SettingError::new("force", "none", "a field needs at least one keyframe"));
+            return Err(SettingError::new("force", "", "has no keyframes: give at least one"));
         }
         let mut previous = 0;
         for (j, key) in keyframes.iter().enumerate() {
@@ -93,13 +93,13 @@ impl KeyframedField {
         }
     }
 
-    /// The vector in a frame, `ease` being the part of the way at a part of the time.
+    /// The vector in a frame. `ease` gives the part of the change at a part of the time.
     fn between(&self, frame: u32, ease: fn(f64) -> f64) -> Vec3 {
         self.between_at(f64::from(frame), frame, ease)
     }
 
-    /// The force in the middle of some frames, the first and the last of which are given: what an interval of them has for vector, so
-    /// that it changes an eased wind as little as may be.
+    /// The force in the middle of the frames from the first to the last: the vector for an interval of them that
+    /// changes an eased wind as little as possible.
     pub(crate) fn middle_of(&self, first: u32, last: u32) -> Vec3 {
         let time = 0.5 * (f64::from(first) + f64::from(last));
         let frame = first + (last - first).div_ceil(2);
@@ -110,7 +110,7 @@ impl KeyframedField {
         }
     }
 
-    /// At a time, `frame` being the first that does not lie before it.
+    /// At a time; `frame` is the first that is not before it.
     fn between_at(&self, time: f64, frame: u32, ease: fn(f64) -> f64) -> Vec3 {
         let next = self.keyframes.partition_point(|key| key.through < frame).min(self.keyframes.len() - 1);
         // The frame lies in interval `next`: before its middle, or after.
@@ -156,7 +156,7 @@ impl Field for KeyframedField {
         self.vector(frame)
     }
 
-    /// What is eased lies between two vectors.
+    /// An eased value lies between two vectors.
     fn strongest(&self) -> f32 {
         self.keyframes.iter().map(|key| key.vector.length()).fold(0.0, f32::max)
     }

@@ -14,7 +14,7 @@ use crate::vector::{dot, scale, subtract};
 #[cfg(test)]
 mod tests;
 
-/// How far along an axis a local field may lie (cm): squares of distances are numbers of f32 then.
+/// Largest coordinate of a local field along an axis (cm), so that squares of distances fit in f32.
 pub(super) const FARTHEST: f64 = 1e6;
 
 /// A direction of length 1.
@@ -54,7 +54,7 @@ impl<S: Shape> LocalField<S> {
             position: self.position.to_array(),
             strength: self.strength * falloff::envelope(&self.envelope, frame),
             falloff: self.falloff,
-            // Above 0 whatever the radius: at the centre of a smaller one F would be 0 times infinity.
+            // Above 0 for any radius: at the centre of a smaller one F would be 0 times infinity.
             core_squared: (core * core).max(f32::MIN_POSITIVE),
             shape: self.shape,
         }

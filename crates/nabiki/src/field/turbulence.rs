@@ -84,12 +84,12 @@ pub struct TurbulenceField {
     head: HeadTrack,
     /// Where the pattern has drifted to by each frame (cm).
     drifted: Vec<DVec3>,
-    /// The phases of every octave in the first frames, so that they are not worked out for every row.
+    /// The phases of every octave in the first frames, computed once instead of for every row.
     first_phases: Vec<Phases>,
 }
 
 impl TurbulenceField {
-    /// Frames whose phases are worked out beforehand.
+    /// Number of frames whose phases are computed in advance.
     const FIRST_FRAMES: u32 = 4096;
 
     /// Turbulence around the moving head ellipsoid. `poses` are those of the head in the space of the field, one per
@@ -133,7 +133,7 @@ impl TurbulenceField {
         let last = self.drifted.len() - 1;
         match (frame as usize).checked_sub(last) {
             None | Some(0) => self.drifted[frame as usize],
-            // The last wind goes on.
+            // The last wind continues.
             Some(beyond) => {
                 let step = if last > 0 { self.drifted[last] - self.drifted[last - 1] } else { DVec3::ZERO };
                 self.drifted[last] + step * beyond as f64
@@ -148,7 +148,7 @@ impl TurbulenceField {
         self.octaves[octave].phases(self.drifted(frame), pulses)
     }
 
-    /// Does something with the field in one frame.
+    /// Calls a function with the field in one frame.
     fn in_frame(&self, frame: u32, act: impl FnOnce(&InFrame)) {
         let ramp = Ramp::new(self, frame);
         let first = frame as usize * self.octaves.len();
@@ -172,7 +172,7 @@ fn drifted(drift: f32, wind: &[Vec3]) -> Result<Vec<DVec3>, SettingError> {
     if let Some(n) = wind.iter().position(|w| !w.is_finite()) {
         return Err(SettingError::new(format!("wind of frame {n}"), wind[n], "must be finite numbers"));
     }
-    // A wind that stays as it is to the end need not be kept.
+    // A wind that does not change up to the end need not be stored.
     let end = wind.iter().rev().zip(wind.iter().rev().skip(1)).take_while(|(a, b)| a == b).count();
     let kept = &wind[..wind.len() - end];
     let mut place = DVec3::ZERO;
@@ -292,7 +292,7 @@ impl Field for TurbulenceField {
 
     fn first_above(&self, limit: f64) -> Option<(String, String)> {
         let above = f64::from(self.strongest()) > limit;
-        // A ramp that ends nearly at once throws the force about without end.
+        // A ramp that ends almost at once makes the force enormous.
         let of_ramp = f64::from(self.strongest_with(0.0)) <= limit;
         let Turbulence { strength, near_head, .. } = self.settings;
         let (setting, value) = if of_ramp { ("near_head", near_head) } else { ("strength", strength) };

@@ -198,7 +198,7 @@ impl Other {
         true
     }
 
-    /// That of the strands and points named, in that order.
+    /// That of the given strands and points, in that order.
     pub(super) fn gather(&self, strands: &[usize], points: &[usize]) -> Self {
         let values = match self.per {
             Per::Groom => self.values.clone(),
@@ -208,7 +208,7 @@ impl Other {
         Self { values, ..self.clone_without_values() }
     }
 
-    /// That of points blended from those there are, each by two of them and their weights.
+    /// That of points blended from existing ones, two each with their weights.
     pub(super) fn resampled(&self, blends: impl Iterator<Item = [(usize, f64); 2]>) -> Self {
         match self.per {
             Per::Point => Self { values: self.values.blended(self.extent, blends), ..self.clone_without_values() },

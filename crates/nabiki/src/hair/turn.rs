@@ -22,7 +22,7 @@ impl Hair {
         }
     }
 
-    /// With the strands turned round for which `which` holds.
+    /// Reverses the strands for which `which` is true.
     fn turned(self, which: &[bool]) -> Self {
         if !which.contains(&true) {
             return self;
@@ -34,7 +34,7 @@ impl Hair {
             points[strands.range(s)].reverse();
         }
         let mut turned = attributes.gather(&all, &points);
-        // Texture coordinates of a root that are those of its point go over to the other end.
+        // Root texture coordinates that equal those of the root point move to the other end.
         if let (Some(uv), Some(root_uv)) = (&attributes.point_uv, &mut turned.root_uv) {
             for (s, _) in which.iter().enumerate().filter(|(_, turned)| **turned) {
                 let range = strands.range(s);

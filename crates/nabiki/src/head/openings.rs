@@ -9,7 +9,8 @@ use crate::{Ellipsoid, Mesh};
 /// A rim with this share of its vertices on the scalp opens the skull.
 const ON_SCALP: f64 = 0.25;
 
-/// Vertices between these many times the ellipsoid's radius from its centre are of the scalp: E runs through it.
+/// Vertices between these multiples of the ellipsoid's radius from its centre belong to the scalp, because E runs
+/// through it.
 const NEAR: std::ops::RangeInclusive<f32> = 0.85..=1.2;
 
 /// A hole in a head's mesh, or the rim where it was cut off. A fan around the middle of its rim closes it.
@@ -47,7 +48,7 @@ pub(super) fn of(mesh: &Mesh, ellipsoid: &Ellipsoid, skin: &SkinDistance) -> Vec
         .collect()
 }
 
-/// Whether E is the scalp's, and not one drawn about a whole body: half of its points where hair grows are near the skin.
+/// Whether E belongs to the scalp and not to a whole body: half of its points where hair grows are near the skin.
 fn runs_through_scalp(ellipsoid: &Ellipsoid, skin: &SkinDistance) -> bool {
     // Share of the mean half axis; a fitted E is off by 0.02 to 0.05.
     const FITTED: f32 = 0.1;

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::Mesh;
 use crate::distance::rims;
 
-/// A piece that encloses less than this share of what a ball of its surface does is flat: it has no outside.
+/// A piece that encloses less than this share of what a ball of its area would is flat: it has no outside.
 const FLAT: f64 = 1e-3;
 
 /// The orientation of a mesh's triangles, and how it was corrected.
@@ -50,7 +50,7 @@ impl Mesh {
         let has_inside = (0..enclosed.len()).any(|piece| outward(piece).is_some());
         let mut whole = vec![false; turn.len()];
         for (t, &(piece, agreed)) in pieces.iter().enumerate() {
-            // A flat piece goes back to how it came.
+            // A flat piece returns to its original orientation.
             whole[t] = outward(piece).map_or(agreed, |outward| !outward);
             turn[t] ^= whole[t];
         }
@@ -67,7 +67,7 @@ impl Mesh {
         }
     }
 
-    /// Volume and area of each piece, its openings closed.
+    /// Volume and area of each piece, with its openings closed.
     fn enclosed(&self, joined: &[u32], pieces: &[(usize, bool)]) -> Vec<[f64; 2]> {
         let count = pieces.iter().map(|&(piece, _)| piece + 1).max().unwrap_or(0);
         let mut enclosed = vec![[0.0; 2]; count];
@@ -87,7 +87,7 @@ impl Mesh {
     }
 }
 
-/// The triangles at each edge, named by its lower and its higher vertex, and whether they run along it upward.
+/// The triangles at each edge, keyed by its lower and its higher vertex, and whether they run along it upward.
 fn neighbours(corners: &[[u32; 3]]) -> HashMap<(u32, u32), Vec<(usize, bool)>> {
     let mut beside: HashMap<(u32, u32), Vec<(usize, bool)>> = HashMap::with_capacity(corners.len() * 3 / 2);
     for (t, &[a, b, c]) in corners.iter().enumerate().filter(|(_, [a, b, c])| a != b && b != c && c != a) {
@@ -98,7 +98,7 @@ fn neighbours(corners: &[[u32; 3]]) -> HashMap<(u32, u32), Vec<(usize, bool)>> {
     beside
 }
 
-/// For each triangle its piece, and whether it must be turned to agree with the first triangle of that.
+/// For each triangle, its piece and whether it must be turned to agree with the piece's first triangle.
 fn agree(corners: &[[u32; 3]], beside: &HashMap<(u32, u32), Vec<(usize, bool)>>) -> Vec<(usize, bool)> {
     let mut found: Vec<Option<(usize, bool)>> = vec![None; corners.len()];
     let mut pieces = 0;

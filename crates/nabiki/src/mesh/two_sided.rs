@@ -1,5 +1,5 @@
-//! Surfaces exported with two sides: each face once more, facing the other way, perhaps cut into other triangles. Between the two is no
-//! space, so nothing would be inside.
+//! Surfaces exported with two sides: each face a second time, facing the other way, perhaps cut into other triangles.
+//! There is no space between the two, so nothing would be inside.
 
 use std::collections::HashMap;
 
@@ -7,27 +7,28 @@ use glam::DVec3;
 
 use super::Mesh;
 
-/// A part that encloses less than this share of what a ball of its surface does may have two sides.
+/// A part that encloses less than this share of what a ball of its area would may have two sides.
 const NO_SPACE: f64 = 1e-6;
 
-/// Triangles of less than this share of the largest one's area point anywhere.
+/// The direction of triangles below this share of the largest one's area is arbitrary.
 const NO_AREA: f64 = 1e-6;
 
 impl Mesh {
-    /// Of every part with two sides keeps one; says how many triangles that leaves out. `joined`: for each vertex the first at its place.
+    /// Keeps one side of every two-sided part, and returns the number of triangles removed. `joined`: for each vertex, the first one at
+    /// its position.
     pub(super) fn keep_one_side(&mut self, joined: &[u32]) -> usize {
         let corners: Vec<[u32; 3]> = self.triangles.iter().map(|t| t.map(|v| joined[v as usize])).collect();
         let middle = self.positions.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / self.positions.len().max(1) as f64;
         let at = |v: u32| self.positions[v as usize].as_dvec3() - middle;
         let areas: Vec<DVec3> = corners.iter().map(|&[a, b, c]| 0.5 * (at(b) - at(a)).cross(at(c) - at(a))).collect();
         let mut beside: HashMap<(u32, u32), Vec<usize>> = HashMap::with_capacity(3 * corners.len());
-        // What has next to no area has no side.
+        // A triangle with almost no area has no side.
         let largest = areas.iter().map(|area| area.length()).fold(0.0, f64::max);
         let flat = |t: usize| areas[t].length() <= NO_AREA * largest;
         for (t, &[a, b, c]) in corners.iter().enumerate().filter(|&(t, _)| !flat(t)) {
             [(a, b), (b, c), (c, a)].into_iter().for_each(|edge| beside.entry(edge).or_default().push(t));
         }
-        // No edge has two triangles that run along it alike: nothing has two sides.
+        // No edge has two triangles that run along it in the same direction: nothing is two-sided.
         if beside.values().all(|triangles| triangles.len() < 2) {
             return 0;
         }
@@ -62,7 +63,7 @@ impl Mesh {
     }
 }
 
-/// The triangles that hang together with one by edges, itself among them.
+/// The triangles connected to this one by edges, including itself.
 fn around(
     first: usize,
     seen: &mut [bool],
@@ -86,8 +87,8 @@ fn around(
     part
 }
 
-/// Those of them that are reached without going round an edge to the other side: of the triangles that run along an edge the other
-/// way, the next one of a side turns the least.
+/// Those that can be reached without crossing an edge to the other side: of the triangles that run along an edge the
+/// other way, the one on the same side turns the least.
 fn side(first: usize, corners: &[[u32; 3]], beside: &HashMap<(u32, u32), Vec<usize>>, areas: &[DVec3]) -> Vec<usize> {
     let mut side = vec![first];
     let mut reached = std::collections::HashSet::from([first]);
@@ -115,7 +116,7 @@ mod tests {
 
     use super::*;
 
-    /// A box of quads, each cut into two triangles from its first corner; with the other side of each, whose first corner is another.
+    /// A box of quads, each cut into two triangles from its first corner; the other side of each begins with another corner.
     fn quads(two_sides: bool) -> Mesh {
         let corner = |i: u32| 2.0 * Vec3::new((i >> 2) as f32, (i >> 1 & 1) as f32, (i & 1) as f32);
         let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
@@ -141,7 +142,7 @@ mod tests {
         let mut mesh = quads(false);
         let before = mesh.clone();
         assert_eq!(mesh.keep_one_side(&[0, 1, 2, 3, 4, 5, 6, 7]), 0);
-        // A stray double is no second side.
+        // A stray duplicate is not a second side.
         mesh.triangles.push(mesh.triangles[3]);
         assert_eq!(mesh.keep_one_side(&[0, 1, 2, 3, 4, 5, 6, 7]), 0);
         assert_eq!(mesh.triangles[..12], before.triangles);

@@ -5,7 +5,7 @@ use glam::{Mat3, Vec3};
 use super::{Obstacle, Reading};
 use crate::error::{SettingError, check_positive};
 
-/// How far about it distances are read (cm): contact keeps hair up to 5 cm away.
+/// Largest distance at which it returns values (cm): contact keeps hair up to 5 cm away.
 const AROUND_CM: f32 = 6.0;
 
 /// All points within `radius` of a segment. Distances are exact everywhere and need no samples.
@@ -47,7 +47,7 @@ impl Obstacle for Capsule {
         let out = p - (a + along * axis);
         let (away, normal) = (out.length(), out.normalize_or(axis.any_orthogonal_vector().normalize_or(Vec3::Y)));
         let outer = |v: Vec3| Mat3::from_cols(v * v.x, v * v.y, v * v.z);
-        // About an end it is a ball, between them a cylinder, which is straight along its axis.
+        // Around an end it is a ball, between them a cylinder, which is straight along its axis.
         let straight = if along > 0.0 && along < 1.0 { outer(axis.normalize_or_zero()) } else { Mat3::ZERO };
         let hessian = (Mat3::IDENTITY - outer(normal) - straight) * (1.0 / away.max(1e-3 * self.radius));
         Some(Reading { distance: away - self.radius, gradient: normal, hessian })
@@ -75,7 +75,7 @@ mod tests {
             let p = Vec3::new(part(13), part(29), part(71));
             let at = |p: Vec3| capsule.read(p, 0).unwrap();
             let Reading { distance, gradient, hessian } = at(p);
-            // Near the axis distances bend by more than a step sees.
+            // Near the axis the curvature is too large for the differences.
             if distance < -1.0 {
                 continue;
             }
@@ -84,7 +84,7 @@ mod tests {
                 let slope = (ahead.distance - behind.distance) / (2.0 * step);
                 assert!((slope - gradient.dot(axis)).abs() < 2e-3, "{p}: {slope}, {gradient}");
                 let turned = (ahead.gradient - behind.gradient) / (2.0 * step);
-                // Where ball and cylinder meet it jumps.
+                // It jumps where ball and cylinder meet.
                 let jumps = (at(p + step * axis).hessian - at(p - step * axis).hessian).mul_vec3(axis).length() > 0.05;
                 assert!(jumps || turned.distance(hessian * axis) < 5e-3, "{p}: {turned}, {}", hessian * axis);
             }

@@ -6,8 +6,8 @@ use glam::{DMat3, DVec3};
 
 use super::{Scalar, Vector};
 
-/// A number, and how it changes with each of N unknowns. Loops over the N are what the vectors of the machine are for, so
-/// every operation is inlined into whoever is compiled for them.
+/// A number, and its derivatives by N unknowns. Loops over N are meant for vector code, so every operation is inlined
+/// into its vectorised callers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Dual<const N: usize> {
     pub value: f64,
@@ -15,7 +15,7 @@ pub(crate) struct Dual<const N: usize> {
 }
 
 impl<const N: usize> Dual<N> {
-    /// value and `scale` times the tangents: f(x) where f' is `scale`.
+    /// value, and `scale` times the tangents: f(x) with f' = `scale`.
     #[inline(always)]
     fn chained(self, value: f64, scale: f64) -> Self {
         let mut tangents = self.tangents;
@@ -116,7 +116,7 @@ impl<const N: usize> Scalar for Dual<N> {
         self.chained(self.value * factor, factor)
     }
 
-    /// At 0, where the root has no derivative, that of what stands still.
+    /// At 0, where the root has no derivative, use that of a constant.
     #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
@@ -149,7 +149,7 @@ impl<const N: usize> Scalar for Dual<N> {
 mod tests {
     use super::*;
 
-    /// Two numbers that change with one unknown each.
+    /// Two numbers that depend on one unknown each.
     fn pair(a: f64, b: f64) -> [Dual<2>; 2] {
         [Dual { value: a, tangents: [1.0, 0.0] }, Dual { value: b, tangents: [0.0, 1.0] }]
     }
@@ -176,7 +176,7 @@ mod tests {
             let exact = f(pair(a, b)).tangents;
             let by_a = (f(pair(a + h, b)).value - f(pair(a - h, b)).value) / (2.0 * h);
             let by_b = (f(pair(a, b + h)).value - f(pair(a, b - h)).value) / (2.0 * h);
-            // Differences of h are off by h^2 and by roundings over h.
+            // The error of differences of step h is h^2 plus rounding over h.
             assert!((exact[0] - by_a).abs() < 1e-8 && (exact[1] - by_b).abs() < 1e-8, "{n}: {exact:?} {by_a} {by_b}");
         }
     }

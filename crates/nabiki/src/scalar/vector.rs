@@ -38,7 +38,7 @@ impl<S: Scalar> Vector<S> {
         DVec3::new(self.x.value(), self.y.value(), self.z.value())
     }
 
-    /// Times a number that nothing changes.
+    /// Times a constant.
     #[inline(always)]
     pub fn times(self, factor: f64) -> Self {
         Self { x: self.x.times(factor), y: self.y.times(factor), z: self.z.times(factor) }
@@ -68,7 +68,7 @@ impl<S: Scalar> Vector<S> {
         self.dot(self).sqrt()
     }
 
-    /// Of length 1, or `fallback` where there is no direction.
+    /// Normalised, or `fallback` if it has no direction.
     #[inline(always)]
     pub fn normalized_or(self, fallback: Self) -> Self {
         let length = self.length();
@@ -76,13 +76,13 @@ impl<S: Scalar> Vector<S> {
         if inverse.is_finite() && inverse > 0.0 { self * (S::from(1.0) / length) } else { fallback }
     }
 
-    /// The part `t` of the way to another.
+    /// The interpolation to another, at `t`.
     #[inline(always)]
     pub fn lerp(self, other: Self, t: f64) -> Self {
         self.times(1.0 - t) + other.times(t)
     }
 
-    /// Turned, scaled and sheared by a matrix that nothing changes.
+    /// Transformed by a constant matrix.
     #[inline(always)]
     pub fn by(self, matrix: &DMat3) -> Self {
         let [a, b, c] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
@@ -90,7 +90,7 @@ impl<S: Scalar> Vector<S> {
         Self { x: row(a.x, b.x, c.x), y: row(a.y, b.y, c.y), z: row(a.z, b.z, c.z) }
     }
 
-    /// A point taken along by a map that nothing changes.
+    /// A point transformed by a constant map.
     #[inline(always)]
     pub fn taken_by(self, map: &DAffine3) -> Self {
         self.by(&map.matrix3) + map.translation.into()
@@ -164,7 +164,7 @@ impl<S: Scalar> From<DQuat> for Turn<S> {
 }
 
 impl<S: Scalar> Turn<S> {
-    /// The smallest rotation that takes one direction to another; none at all where they are opposite.
+    /// The smallest rotation from one direction to another; the identity if they are opposite.
     #[inline(always)]
     pub fn smallest(from: Vector<S>, to: Vector<S>) -> Self {
         if from == to {
@@ -177,7 +177,8 @@ impl<S: Scalar> Turn<S> {
         Self { along: cross * inverse, w: cosine * inverse }
     }
 
-    /// A turn about a direction, by twice the angle whose tangent is half of this (rad): nearly by as much.
+    /// A rotation about a direction, by twice the angle whose tangent is half of this (rad), which is nearly this
+    /// angle.
     #[inline(always)]
     pub fn about(direction: Vector<S>, angle: S) -> Self {
         let half = angle.times(0.5);
@@ -185,14 +186,14 @@ impl<S: Scalar> Turn<S> {
         Self { along: direction * (half * inverse), w: inverse }
     }
 
-    /// A vector turned.
+    /// A vector rotated.
     #[inline(always)]
     pub fn of(self, v: Vector<S>) -> Vector<S> {
         let Self { along: b, w } = self;
         v * (w * w - b.dot(b)) + b * v.dot(b).times(2.0) + b.cross(v) * w.times(2.0)
     }
 
-    /// A vector turned that nothing changes.
+    /// A constant vector rotated.
     #[inline(always)]
     pub fn of_known(self, v: DVec3) -> Vector<S> {
         let Self { along: b, w } = self;
@@ -206,7 +207,7 @@ impl<S: Scalar> Turn<S> {
         scaled(w * w - b.dot(b)) + b * dot.times(2.0) + cross * w.times(2.0)
     }
 
-    /// This turn after another.
+    /// This rotation after another.
     #[inline(always)]
     pub fn after(self, first: Self) -> Self {
         let (Vector { x: x0, y: y0, z: z0 }, w0) = (self.along, self.w);

@@ -83,7 +83,7 @@ macro_rules! wholes {
             #[allow(clippy::unnecessary_cast, clippy::cast_possible_wrap, reason = "one text for all types")]
             const KIND: Kind = Kind::Whole {
                 least: $type::MIN as i64,
-                // What TOML holds.
+                // The range of TOML.
                 most: if $type::MAX as u64 > i64::MAX as u64 { i64::MAX } else { $type::MAX as i64 },
             };
 
@@ -125,7 +125,7 @@ texts! {
     PathBuf Path |path: &PathBuf| Datum::Text(path.to_string_lossy().into_owned());
 }
 
-/// Refuses numbers that belong together, where one is out of range.
+/// Refuses a group of numbers if one is out of range.
 fn check_each<T: Number>(
     values: &[T],
     shown: impl std::fmt::Display,

@@ -1,4 +1,4 @@
-//! Wishes as residuals: what is looked at, and how far it is from where it should be.
+//! Wishes as residuals: the observed nodes, and their distances from the goals.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ use crate::error::SettingError;
 pub(super) struct Aims {
     /// The strands of the problem that wishes name, ascending.
     pub strands: Vec<usize>,
-    /// What is looked at, ascending; strands are counted in `strands`.
+    /// The observed nodes ("spots"), ascending; strands are counted in `strands`.
     pub spots: Vec<Asked>,
     aims: Vec<Aim>,
 }
@@ -23,12 +23,12 @@ pub(super) struct Aims {
 /// One wish.
 #[derive(Clone, Debug)]
 struct Aim {
-    /// Its nodes among the spots.
+    /// Its nodes, as indices of spots.
     spots: Vec<usize>,
-    /// Where they are in the motion as the problem has it.
+    /// Their positions in the motion of the problem.
     now: Vec<DVec3>,
     to: To,
-    /// The part of all wishes that it is.
+    /// Its share of all wishes.
     share: f64,
 }
 
@@ -38,16 +38,16 @@ enum To {
     Mean(DVec3),
 }
 
-/// What counts as usual, in parts of the mean square that the strand in the middle has left: three times as far.
+/// Limit of the usual, as a multiple of the median strand's remaining mean square: three times as far.
 const MOST: f64 = 9.0;
 
 impl Aims {
-    /// Refuses no wishes, and those about nothing.
+    /// Refuses an empty list of wishes, and wishes for nothing.
     pub fn new(problem: &Problem) -> Result<Self, SettingError> {
         let Problem { hair, wishes, dynamics, .. } = problem;
         if wishes.is_empty() {
-            let remedy = "nothing to solve for: give a wish";
-            return Err(SettingError::new("wish", "none", remedy));
+            let remedy = "has no entries, so there is nothing to solve for: give one";
+            return Err(SettingError::new("wish", "", remedy));
         }
         for (i, wish) in wishes.iter().enumerate() {
             check(wish, i, problem, dynamics.motion.frames)?;
@@ -79,7 +79,7 @@ impl Aims {
         Ok(Self { strands, spots, aims })
     }
 
-    /// Takes the motion as the problem has it, and the goals that are counted from there.
+    /// Reads the motion of the problem, and sets the goals relative to it.
     pub fn set_now(&mut self, places: &[DVec3], wishes: &[Wish]) {
         for (aim, wish) in self.aims.iter_mut().zip(wishes) {
             aim.now = aim.spots.iter().map(|&spot| places[spot]).collect();
@@ -87,19 +87,19 @@ impl Aims {
         }
     }
 
-    /// Gives a wish, checked already, another goal.
+    /// Sets another goal for a wish; it has been checked.
     pub fn set_goal(&mut self, wish: usize, goal: &Goal) {
         self.aims[wish].set(goal);
     }
 
-    /// No wish but one counts.
+    /// Lets only one wish count.
     pub fn leave_only(&mut self, wish: usize) {
         for (i, aim) in self.aims.iter_mut().enumerate() {
             aim.share = if i == wish { 1.0 } else { 0.0 };
         }
     }
 
-    /// The frames that are looked at, ascending.
+    /// The observed frames, ascending.
     pub fn frames(&self) -> Vec<u32> {
         let mut frames: Vec<u32> = self.spots.iter().map(|spot| spot.frame).collect();
         frames.sort_unstable();
@@ -107,22 +107,22 @@ impl Aims {
         frames
     }
 
-    /// Where the nodes of a wish are.
+    /// The positions of a wish's nodes.
     pub fn places(&self, wish: usize, places: &[DVec3]) -> Vec<Vec3> {
         self.aims[wish].spots.iter().map(|&spot| places[spot].as_vec3()).collect()
     }
 
-    /// Mean square of what is left of all wishes, by weight (cm^2).
+    /// Weighted mean square of the remaining distances of all wishes (cm^2).
     pub fn mean_square(&self, places: &[DVec3]) -> f64 {
         self.aims.iter().map(|aim| aim.share * aim.mean_square(places)).sum()
     }
 
-    /// Root mean square of what is left of each wish (cm).
+    /// Root mean square of the remaining distance of each wish (cm).
     pub fn left(&self, places: &[DVec3]) -> Vec<f64> {
         self.aims.iter().map(|aim| aim.mean_square(places).sqrt()).collect()
     }
 
-    /// Whether some wish is for places of so many strands that most of them can say something else than all.
+    /// Whether some wish for places has enough strands for most of them to differ from all of them.
     pub fn tell_most(&self) -> bool {
         self.aims.iter().any(|aim| {
             let strands = aim.spots.chunk_by(|a, b| self.spots[*a].strand == self.spots[*b].strand).count();
@@ -130,7 +130,7 @@ impl Aims {
         })
     }
 
-    /// For each wish for places, what most strands have left of it at the most: [`MOST`] times what the middle one has (mean square, cm^2).
+    /// For each wish for places, the usual remaining distance: [`MOST`] times that of the median strand (mean square, cm^2).
     pub fn usual(&self, places: &[DVec3]) -> Vec<f64> {
         let of = |aim: &Aim| {
             let mut squares: Vec<f64> = self.by_strand(aim, places).map(|(_, square)| square).collect();
@@ -140,8 +140,8 @@ impl Aims {
         self.aims.iter().map(of).collect()
     }
 
-    /// As [`mean_square`](Self::mean_square), but a strand that is much farther from its places than is [usual](Self::usual) counts hardly more
-    /// than if it were as far as that: its square s as s u / (s + u).
+    /// Like [`mean_square`](Self::mean_square), but a strand much farther from its places than is [usual](Self::usual)
+    /// counts hardly more than one at that distance: its square s counts as s u / (s + u).
     pub fn mean_square_of_most(&self, places: &[DVec3], usual: &[f64]) -> f64 {
         let of = |(aim, &usual): (&Aim, &f64)| {
             let each: f64 = (self.by_strand(aim, places))
@@ -153,7 +153,7 @@ impl Aims {
         self.aims.iter().zip(usual).map(of).sum()
     }
 
-    /// The strands of a wish for places, each as a range of its nodes, with what is left of it (mean square, cm^2).
+    /// The strands of a wish for places: the range of nodes of each, and its remaining distance (mean square, cm^2).
     fn by_strand(&self, aim: &Aim, places: &[DVec3]) -> impl Iterator<Item = (Range<usize>, f64)> {
         let goals = if let To::Each(goals) = &aim.to { &goals[..] } else { &[] };
         let alike = |a: &usize, b: &usize| self.spots[*a].strand == self.spots[*b].strand;
@@ -167,8 +167,8 @@ impl Aims {
         })
     }
 
-    /// Adds what is left to the normal equations. `places`: of the spots, by which residuals are counted; `points` has their
-    /// tangents. `usual`: what [most](Self::usual) strands have left, if those that have much more are to count little.
+    /// Adds the residuals to the normal equations. `places`: of the spots, which number the residuals; `points` has
+    /// their tangents. `usual`: the remaining distance of [most](Self::usual) strands, if outliers are to count little.
     pub fn add_to(&self, normal: &mut Normal, places: &[DVec3], points: &Points, usual: Option<&[f64]>) {
         let n = normal.n;
         let row = |spot: usize, axis: usize| &points.tangents[(3 * spot + axis) * n..][..n];
@@ -231,7 +231,7 @@ impl Aim {
     }
 }
 
-/// Refuses a goal that is none, or not for so many nodes.
+/// Refuses an invalid goal, or one for another number of nodes.
 pub(super) fn check_goal(goal: &Goal, nodes: usize, wish: usize) -> Result<(), SettingError> {
     let finite = |thing: &str, v: &Vec3| match v.is_finite() {
         true => Ok(()),
@@ -262,17 +262,17 @@ fn check(wish: &Wish, i: usize, problem: &Problem, frames: u32) -> Result<(), Se
         return refused("weight", wish.weight.to_string(), "must be a finite number above 0".to_owned());
     }
     if wish.nodes.is_empty() {
-        return refused("nodes", "none".to_owned(), "the wish contains no node: give a larger radius".to_owned());
+        return refused("nodes", String::new(), "has no entries: give a larger radius".to_owned());
     }
     for node in &wish.nodes {
         let strand = node.strand as usize;
         if strand >= problem.hair.len() {
-            let remedy = format!("there are {} strands, 0 to {}", problem.hair.len(), problem.hair.len() - 1);
+            let remedy = format!("must be one of the {} strands, 0 to {}", problem.hair.len(), problem.hair.len() - 1);
             return refused("strands", node.strand.to_string(), remedy);
         }
         let points = problem.hair.strand(strand).len();
         if node.node == 0 || node.node as usize >= points {
-            let remedy = format!("strand {strand} has nodes 1 to {} that move", points - 1);
+            let remedy = format!("only nodes 1 to {} of strand {strand} move", points - 1);
             return refused("nodes", node.node.to_string(), remedy);
         }
     }

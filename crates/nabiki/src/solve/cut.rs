@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::keyed_wind::with_interval;
 use crate::field::{Ease, Keyframe, KeyframedField};
 
-/// So many frames after the pulled one an interval may end that a pull has for its own, lest it leave a rest of a frame or two.
+/// An interval for a pull may end up to this many frames after the pulled one, so that no rest of a frame or two remains.
 const TAIL: u32 = 2;
 
 /// A wind with an interval for a pull.
@@ -51,7 +51,7 @@ pub fn cut_for_pull(keyframes: &[Keyframe], ease: Ease, frame: u32, length: u32)
     Cut { keyframes, interval, felt }
 }
 
-/// What held for good after the last interval goes on in one of its own, so that a pull ends with its frames.
+/// The wind that held after the last interval gets an interval of its own, so that the pull ends with its frames.
 fn ended(keyframes: &[Keyframe], interval: usize) -> Vec<Keyframe> {
     let Keyframe { through, vector } = keyframes[interval];
     let goes_on =
@@ -64,7 +64,7 @@ fn first(keyframes: &[Keyframe], j: usize) -> u32 {
     1 + j.checked_sub(1).map_or(0, |before| keyframes[before].through)
 }
 
-/// Gives the intervals of an eased wind that were not there the vectors that it had in their middle.
+/// Sets the vectors of new intervals of an eased wind to the wind in their middle.
 fn as_it_was(before: &[Keyframe], ease: Ease, mut cut: Vec<Keyframe>) -> Vec<Keyframe> {
     let (Ok(field), true) = (KeyframedField::new(before), ease != Ease::Stepped) else { return cut };
     let field = field.eased(ease);
@@ -165,10 +165,10 @@ mod tests {
                 assert_eq!(vector(&cut.keyframes, Ease::Stepped, n), vector(keys, Ease::Stepped, n));
             }
         }
-        // The calm at the end is calm again in the frame after it, and was until the middle of what is left before it, 61 to 70.
+        // The calm at the end is calm again one frame later, and was calm up to the middle of the remainder before it, 61 to 70.
         let cut = cut_for_pull(&winds()[0], Ease::Smooth, 80, 10);
         assert_eq!(cut.felt, 66..=80);
-        // The middles of the intervals that stay: 3.5 and 32.5.
+        // The middles of the intervals that remain: 3.5 and 32.5.
         let cut = cut_for_pull(&winds()[0], Ease::Smooth, 20, 8);
         assert!(*cut.felt.start() >= 4 && *cut.felt.end() <= 32, "{:?}", cut.felt);
     }
@@ -197,7 +197,7 @@ mod tests {
                 }
                 assert_eq!(twice.keyframes, once.keyframes, "{keys:?} {ease:?}");
                 assert_eq!(twice.interval, once.interval);
-                // Another length that is nearly the same is no other interval, either.
+                // A nearly equal length is not another interval, either.
                 assert_eq!(cut_for_pull(&once.keyframes, ease, 36, 12).keyframes, once.keyframes);
             }
         }

@@ -1,4 +1,4 @@
-//! The wind that numbers mean, frame by frame, gusts in it.
+//! The wind of a list of numbers, frame by frame, with gusts.
 
 use std::sync::Arc;
 
@@ -8,15 +8,15 @@ use super::unknowns::{Guess, Layout, Unknown};
 use crate::error::SettingError;
 use crate::field::{Field, FieldSum, Gust, GustField};
 
-/// The wind of a guess, one vector a frame.
+/// The wind of a guess, one vector per frame.
 #[derive(Debug)]
 pub(super) struct WindTable {
-    /// From frame 1 on; the last one holds for good.
+    /// From frame 1 on; the last one holds after that.
     vectors: Vec<Vec3>,
     strongest: f32,
 }
 
-/// Gusts by the frame, of intensity 1: what the wind is multiplied by is 1 and so many times the intensity.
+/// Gusts per frame, of intensity 1: the factor on the wind is 1 plus this times the intensity.
 #[derive(Clone, Debug)]
 pub(super) struct Gusts {
     /// From frame 1 on.
@@ -33,7 +33,7 @@ impl Gusts {
         Ok(Self { by_frame, largest: f64::from(field.largest_factor()) - 1.0 })
     }
 
-    /// The wind that a guess means.
+    /// The wind of a guess.
     pub fn table(&self, guess: &Guess) -> WindTable {
         let wind = |(n, gust): (usize, &f64)| ((1.0 + guess.gust * gust) * guess.track.vector(n as u32 + 1)).as_vec3();
         let strongest = guess.track.vectors.iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -43,7 +43,7 @@ impl Gusts {
         }
     }
 
-    /// How the wind of each frame, from 1 on, changes with each number of a layout.
+    /// The derivative of each frame's wind, from 1 on, by each number of a layout.
     pub fn by_number(&self, guess: &Guess, layout: &Layout) -> Vec<Vec<DVec3>> {
         let of_frame = |(n, gust): (usize, &f64)| {
             let frame = n as u32 + 1;
@@ -70,7 +70,7 @@ impl Gusts {
 }
 
 impl WindTable {
-    /// Of one vector a frame, from frame 1 on.
+    /// For one vector per frame, from frame 1 on.
     pub fn of(vectors: impl Iterator<Item = DVec3>) -> Self {
         let vectors: Vec<Vec3> = vectors.map(|v| v.as_vec3()).collect();
         let strongest = vectors.iter().map(|v| v.length()).fold(0.0, f32::max);

@@ -86,7 +86,7 @@ pub fn with_interval(keyframes: &[Keyframe], from: u32, through: u32) -> (Vec<Ke
     cut.push(Keyframe { through, vector: at(from) });
     cut.extend(keyframes.iter().copied().filter(|key| key.through > through));
     if cut.len() == new + 1 && through < u32::MAX {
-        // What held for good goes on.
+        // The wind that held after the last interval continues.
         cut.push(Keyframe { through: through + 1, vector: at(through + 1) });
     }
     (cut, new)

@@ -1,10 +1,10 @@
 //! Small systems of linear equations.
 
-/// A symmetric matrix of n x n and what it is to be solved for: the normal equations of a least-squares problem.
+/// A symmetric n x n matrix and a right side: the normal equations of a least-squares problem.
 #[derive(Clone, Debug)]
 pub(super) struct Normal {
     pub n: usize,
-    /// Row after row; the part on and below the diagonal counts.
+    /// Row by row; only the part on and below the diagonal counts.
     pub matrix: Vec<f64>,
     /// Minus the gradient.
     pub right: Vec<f64>,
@@ -15,7 +15,7 @@ impl Normal {
         Self { n, matrix: vec![0.0; n * n], right: vec![0.0; n] }
     }
 
-    /// Takes in one residual and its derivatives, by weight.
+    /// Adds one weighted residual with its derivatives.
     pub fn add(&mut self, weight: f64, residual: f64, derivatives: &[f64]) {
         for (i, &a) in derivatives.iter().enumerate() {
             let weighted = weight * a;
@@ -31,7 +31,7 @@ impl Normal {
         self.matrix[i * self.n + i]
     }
 
-    /// How much nearer a step leads, if all is as linear as it seems: 2 b.x - x.Ax, of the weighted sum of squares.
+    /// The decrease of the weighted sum of squares by a step if the problem were linear: 2 b.x - x.Ax.
     pub fn expected(&self, step: &[f64]) -> f64 {
         let n = self.n;
         let mut sum = 0.0;
@@ -42,7 +42,7 @@ impl Normal {
         sum
     }
 
-    /// Leaves a number as it is.
+    /// Fixes one number.
     pub fn hold(&mut self, i: usize) {
         let n = self.n;
         for j in 0..n {
@@ -53,7 +53,7 @@ impl Normal {
         self.right[i] = 0.0;
     }
 
-    /// x of (A + diag(damping)) x = b, by Cholesky's method; `None` where the matrix is not positive definite.
+    /// x of (A + diag(damping)) x = b, by Cholesky's method; `None` if the matrix is not positive definite.
     pub fn solved(&self, damping: &[f64]) -> Option<Vec<f64>> {
         let n = self.n;
         let mut lower = self.matrix.clone();

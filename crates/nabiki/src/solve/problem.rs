@@ -51,7 +51,7 @@ impl Default for Prior {
 }
 
 impl Prior {
-    /// Refuses distances that are negative or no numbers.
+    /// Refuses distances that are negative or not numbers.
     pub(super) fn check(&self) -> Result<(), SettingError> {
         for (thing, value) in [("prior.keep", self.keep), ("prior.alike", self.alike)] {
             if !(value.is_finite() && value >= 0.0) {

@@ -34,54 +34,54 @@ pub struct Solver {
     layout: Layout,
     aims: Aims,
     gusts: Gusts,
-    /// What a wind of 1 along each axis makes.
+    /// The effect of a wind of 1 along each axis.
     of_wind: [Arc<dyn Field>; 3],
-    /// The strands that wishes name, with their numbers.
+    /// The strands in wishes, with their numbers.
     strands: Strands,
     ids: Vec<u32>,
-    /// They at the last frame before any unknown is felt: each motion begins there.
+    /// Their state at the last frame before any unknown is felt, where each motion begins.
     begin: Timeline,
-    /// The same hair, on its way.
+    /// The same hair, being moved.
     run: Timeline,
-    /// The same of the specification, once it is asked for.
+    /// The same for the specification, once it is needed.
     standing: Option<Standing>,
-    /// Where the spots are that are looked at until then.
+    /// Positions of the spots observed up to that frame.
     early: Vec<DVec3>,
-    /// How far each spot is from its root along the strand (cm).
+    /// Distance of each spot from its root along the strand (cm).
     reaches: Vec<f64>,
-    /// Whether steps are judged by [most of the strands](Aims::usual).
+    /// Whether [most of the strands](Aims::usual) judge steps.
     by_most: bool,
-    /// What field all hair of the problem bears, as it answers now.
+    /// The field limit for all hair of the problem, with the current settings.
     steady: Stability,
     frames: Vec<u32>,
     large: Vec<f64>,
-    /// What the problem has, from which changes are counted.
+    /// The values of the problem, from which changes are measured.
     start: Vec<f64>,
     at: Place,
     before_cm: f64,
     left_before: Vec<f64>,
     damping: Damping,
-    /// How far a step goes at the most, in large changes: it grows where tangents are right so far.
+    /// The largest step, in large changes: it grows while tangents are right that far.
     reach: f64,
-    /// Whether tangents are differences of motions.
+    /// Whether tangents are differences between motions.
     by_differences: bool,
-    /// Numbers that stay as they are.
+    /// Numbers that are fixed.
     held: Vec<usize>,
-    /// Ends a search after the motion that is being computed.
+    /// Ends a search after the current motion.
     brake: Option<Brake>,
-    /// Whether a step was refused since the search began because the hair cannot be stepped under so strong a force.
+    /// Whether a step was refused since the search began because the force was too strong to step the hair.
     too_strong: bool,
     runs: usize,
     iterations: usize,
 }
 
-/// Settings, and the motion that they make.
+/// Settings, and their motion.
 #[derive(Clone, Debug)]
 struct Place {
     x: Vec<f64>,
-    /// Of the spots.
+    /// For the spots.
     places: Vec<DVec3>,
-    /// Mean square of what is left, and of what is preferred (cm^2).
+    /// Mean square of the remaining distances and preferences (cm^2).
     cost: f64,
 }
 
@@ -95,7 +95,7 @@ impl std::fmt::Debug for Brake {
     }
 }
 
-/// How much each step is held back, and how fast that grows where steps fail.
+/// The initial damping of each step, and its growth when steps fail.
 #[derive(Clone, Copy, Debug)]
 struct Damping {
     amount: f64,
@@ -108,13 +108,13 @@ impl Default for Damping {
     }
 }
 
-/// Trials of one step, each more damped than the one before: by 2, 4, 8, ... times, so that the last is next to nothing.
+/// Trials per step, each with more damping than the one before: by factors of 2, 4, 8, ..., so that the last step is almost 0.
 const TRIALS: usize = 8;
 
-/// How many large changes a step goes at the most.
+/// Limit of a step, in large changes.
 const FARTHEST: f64 = 32.0;
 
-/// The least damping.
+/// Smallest damping.
 const LEAST: f64 = 1e-6;
 
 impl Solver {
@@ -204,7 +204,7 @@ impl Solver {
         self
     }
 
-    /// Counts from where it is.
+    /// Measures changes from the current values.
     fn restart(&mut self) {
         self.at.cost = self.cost(&self.at.x, &self.at.places);
         self.before_cm = self.left_cm();
@@ -271,19 +271,19 @@ impl Solver {
         self.brake.as_ref().is_some_and(|brake| (brake.0)())
     }
 
-    /// One step of the method; whether it led nearer.
+    /// Takes one step of the method and returns whether it led nearer.
     fn descend_once(&mut self) -> bool {
         self.iterations += 1;
-        // Where what is held misleads, among swirls, differences of all of it may lead on.
+        // If the constant parts mislead, as among swirls, full differences may lead on.
         self.descend_with(true) || self.by_differences && !self.is_braked() && self.descend_with(false)
     }
 
-    /// `held`: whether what is not linear in the wind is held while it is differentiated.
+    /// `held`: whether what is not linear in the wind counts as constant for derivatives.
     fn descend_with(&mut self, held: bool) -> bool {
         let usual = self.by_most.then(|| self.aims.usual(&self.at.places));
         let Ok(normal) = self.normal(held, usual.as_deref()) else { return false };
         let here = self.judged(&self.at, usual.as_deref());
-        // What hardly matters is damped as if it mattered a little, so that it stays where it is.
+        // Numbers that hardly matter are damped as if they mattered a little, so that they stay.
         let most = (0..normal.n).map(|i| normal.diagonal(i) * self.large[i].powi(2)).fold(0.0, f64::max);
         for _ in 0..TRIALS {
             if self.is_braked() {
@@ -303,7 +303,7 @@ impl Solver {
                     let gained = (here - there) / expected.max(f64::MIN_POSITIVE);
                     if there < here {
                         self.at = next;
-                        // As far as it went tangents have said the truth: the next may go farther.
+                        // Tangents were right up to the limit: the next step may go farther.
                         if shorter < 1.0 && gained > 0.5 {
                             self.reach = (2.0 * self.reach).min(FARTHEST);
                         }
@@ -320,20 +320,20 @@ impl Solver {
         false
     }
 
-    /// By what a step is judged: the cost, or that of [most strands](Aims::usual).
+    /// The measure of a step: the cost, or that of [most strands](Aims::usual).
     fn judged(&self, place: &Place, usual: Option<&[f64]>) -> f64 {
         let Some(usual) = usual else { return place.cost };
         place.cost - self.aims.mean_square(&place.places) + self.aims.mean_square_of_most(&place.places, usual)
     }
 
-    /// Where a step leads; `None` where the hair cannot be stepped there.
+    /// The result of a step; `None` if the hair cannot be stepped there.
     fn tried(&mut self, step: &[f64]) -> Option<Place> {
         let mut x: Vec<f64> = self.at.x.iter().zip(step).map(|(x, d)| x + d).collect();
         self.layout.keep_in_range(&self.problem.wind, &mut x);
         self.place(x)
     }
 
-    /// Some settings with the motion that they make.
+    /// Some settings with their motion.
     fn place(&mut self, x: Vec<f64>) -> Option<Place> {
         let guess = self.layout.guess(&self.problem.wind, &x);
         let wind = Arc::new(self.gusts.table(&guess));
@@ -343,7 +343,7 @@ impl Solver {
         cost.is_finite().then_some(Place { x, places, cost })
     }
 
-    /// How the hair answers under a guess; `None` where that is as the problem has it.
+    /// The hair's settings under a guess; `None` if they are those of the problem.
     fn dynamics(&self, guess: &Guess) -> Option<Dynamics> {
         let mut dynamics = self.problem.dynamics.clone();
         let Form::Free(free) = &mut dynamics.form else { return None };
@@ -364,11 +364,11 @@ impl Solver {
         changed.then_some(dynamics)
     }
 
-    /// Where the spots are under this wind. `dynamics`: how the hair answers, where it does otherwise than before.
+    /// The spots under this wind. `dynamics`: the hair's settings, if they differ from before.
     fn simulated(&mut self, wind: Arc<dyn Field>, dynamics: Option<Dynamics>) -> Result<Vec<DVec3>, SettingError> {
         let field = self.problem.surroundings.field(wind)?;
         if let Some(dynamics) = dynamics {
-            // Under the old field the new settings might not be steppable, and the other way round.
+            // The new settings might be unstable under the old field, and the reverse.
             self.begin.set_field(Arc::new(FieldSum::default()))?;
             self.begin.set_dynamics(&dynamics)?;
             self.run = self.begin.clone();
@@ -377,7 +377,7 @@ impl Solver {
         self.moved_in(field)
     }
 
-    /// Where the spots are in this field.
+    /// The spots in this field.
     fn moved_in(&mut self, field: Arc<dyn Field>) -> Result<Vec<DVec3>, SettingError> {
         if !self.steady.holds(&*field) {
             self.too_strong = true;
@@ -387,7 +387,7 @@ impl Solver {
         self.gone_on(Some(field))
     }
 
-    /// Where the spots are in the motion that goes on from where all begin, in this field or the one that is there.
+    /// The spots in the motion continued from the common start, in this field or the current one.
     fn gone_on(&mut self, field: Option<Arc<dyn Field>>) -> Result<Vec<DVec3>, SettingError> {
         self.runs += 1;
         self.run.stand_where(&self.begin);
@@ -399,7 +399,7 @@ impl Solver {
         Ok(places)
     }
 
-    /// What is left of the wishes and what is preferred (cm^2).
+    /// The remaining distances and preferences (cm^2).
     fn cost(&self, x: &[f64], places: &[DVec3]) -> f64 {
         let mut preferred = 0.0;
         self.preferences(x, |weight, residual, _| preferred += weight * residual * residual);
@@ -416,7 +416,7 @@ impl Solver {
         });
     }
 
-    /// The residuals of the prior: weight, residual, and by which numbers it changes how.
+    /// The residuals of the prior: weight, residual, and derivatives by number.
     fn preferences(&self, x: &[f64], mut preference: impl FnMut(f64, f64, &[(usize, f64)])) {
         let (keep, alike) = (f64::from(self.problem.prior.keep).powi(2), f64::from(self.problem.prior.alike).powi(2));
         for (i, large) in self.large.iter().enumerate() {

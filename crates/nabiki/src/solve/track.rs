@@ -12,13 +12,13 @@ use crate::field::Ease;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Track {
     pub vectors: Vec<DVec3>,
-    /// Where each interval ends; that of the last one, which holds for good, counts only where it is eased.
+    /// The end of each interval; that of the last one counts only with an ease.
     pub borders: Vec<f64>,
     pub ease: Ease,
 }
 
 impl Track {
-    /// The part that each interval has in the force of a frame, to `part`.
+    /// Passes the share of each interval in the force of a frame to `part`.
     pub fn parts(&self, frame: u32, mut part: impl FnMut(usize, f64)) {
         let Some(last) = self.vectors.len().checked_sub(1) else { return };
         if self.ease == Ease::Stepped {
@@ -48,8 +48,8 @@ impl Track {
         sum
     }
 
-    /// How the force of a frame changes with the border after interval j. A border at a frame, where what comes before it and
-    /// what comes after meet, has the mean of both.
+    /// The derivative of the force of a frame by the border after interval j. A border at a frame, where both sides
+    /// meet, has the mean of both derivatives.
     pub fn by_border(&self, frame: u32, j: usize) -> DVec3 {
         let change = |next: usize| self.vectors[next - 1] - self.vectors[next];
         if self.ease == Ease::Stepped {
@@ -64,13 +64,13 @@ impl Track {
             return within * change(j + 1);
         }
         let Between::Two { from, t, slope, length, .. } = self.between(frame) else { return DVec3::ZERO };
-        // The middle of an interval goes half the way of each of its borders.
+        // The middle of an interval moves half as far as each of its borders.
         let half = |i: usize| if i == j || i == j + 1 { 0.5 } else { 0.0 };
         let by_time = (half(from) * (t - 1.0) - half(from + 1) * t) / length;
         -slope * by_time * change(from + 1)
     }
 
-    /// Where between two middles a frame lies.
+    /// The place of a frame between two middles.
     fn between(&self, frame: u32) -> Between {
         let time = f64::from(frame);
         let last = self.vectors.len() - 1;
@@ -100,8 +100,8 @@ impl Track {
 enum Between {
     /// In the first half of the first interval, or the second half of the last.
     One(usize),
-    /// `t` of the way from the middle of interval `from` to that of the next, which are `length` frames apart: `share` of the
-    /// force is the next one's, and `slope` is how that grows with t.
+    /// `t` of the way from the middle of interval `from` to that of the next, `length` frames apart: `share` of the
+    /// force is the next one's, and `slope` is its derivative by t.
     Two { from: usize, t: f64, share: f64, slope: f64, length: f64 },
 }
 

@@ -34,7 +34,7 @@ impl Unknown {
         }
     }
 
-    /// What counts as a large change of one of its numbers.
+    /// Size of a large change of one of its numbers.
     pub(super) fn large(self) -> f64 {
         match self {
             Self::Vector(_) => 100.0,
@@ -57,35 +57,35 @@ pub struct Answer {
     pub settle: Option<Profile>,
 }
 
-/// The largest part by which stiffness and settling may change: e^3, twenty times.
+/// The largest change of stiffness and settling: by e^3, about twenty times.
 const MOST: f64 = 3.0;
 
 /// The unknowns of a problem as a list of numbers. Factors are counted by their logarithms, from what the problem has.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
-    /// Each unknown with the place of its first number.
+    /// Each unknown with the index of its first number.
     pub unknowns: Vec<(Unknown, usize)>,
-    /// How many numbers they are.
+    /// The number of numbers.
     pub numbers: usize,
 }
 
-/// What a list of numbers means.
+/// The meaning of a list of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Guess {
     pub track: Track,
     /// Intensity of the gusts.
     pub gust: f64,
-    /// Factors on what the problem has.
+    /// Factors on the values of the problem.
     pub stiffness: f64,
     pub settle: f64,
 }
 
 impl Layout {
-    /// Refuses unknowns that there are not, none, and the same one twice.
+    /// Refuses unknowns that do not exist, an empty list, and duplicates.
     pub fn new(unknowns: &[Unknown], wind: &KeyedWind, dynamics: &Dynamics) -> Result<Self, SettingError> {
         if unknowns.is_empty() {
-            let remedy = "nothing may change: free a vector, a border, the gusts, stiffness or settle";
-            return Err(SettingError::new("unknowns", "none", remedy));
+            let remedy = "is empty, so nothing may change: free a vector, a border, the gusts, stiffness or settle";
+            return Err(SettingError::new("unknowns", "", remedy));
         }
         let (mut placed, mut numbers) = (Vec::with_capacity(unknowns.len()), 0);
         let intervals = wind.keyframes.len();
@@ -100,7 +100,7 @@ impl Layout {
         Ok(Self { unknowns: placed, numbers })
     }
 
-    /// The numbers that the problem has.
+    /// The numbers of the problem.
     pub fn start(&self, wind: &KeyedWind) -> Vec<f64> {
         let mut x = Vec::with_capacity(self.numbers);
         for &(unknown, _) in &self.unknowns {
@@ -114,7 +114,7 @@ impl Layout {
         x
     }
 
-    /// What some numbers mean.
+    /// The meaning of some numbers.
     pub fn guess(&self, wind: &KeyedWind, x: &[f64]) -> Guess {
         let mut guess = Guess {
             track: Track {
@@ -138,8 +138,8 @@ impl Layout {
         guess
     }
 
-    /// Brings numbers back to where they mean something: borders a frame apart at least, gusts of no negative strength,
-    /// factors of a size. `wind`: where borders are that are not free.
+    /// Brings numbers into their ranges: borders at least a frame apart, gusts of no negative strength, bounded
+    /// factors. `wind`: the positions of fixed borders.
     pub fn keep_in_range(&self, wind: &KeyedWind, x: &mut [f64]) {
         for &(unknown, at) in &self.unknowns {
             match unknown {
@@ -180,14 +180,14 @@ impl Layout {
         for &(unknown, _) in &self.unknowns {
             first = first.min(match unknown {
                 Unknown::Vector(j) => KeyframedField::new(&wind.keyframes)?.eased(wind.ease).first_felt(j),
-                // Borders meet others on their way, and all else is felt from the first frame on.
+                // Borders may meet others on their way, and everything else is felt from the first frame on.
                 _ => 1,
             });
         }
         Ok(first)
     }
 
-    /// What counts as a large change of each number.
+    /// Size of a large change of each number.
     pub fn large(&self) -> Vec<f64> {
         let each = |&(unknown, _): &(Unknown, usize)| std::iter::repeat_n(unknown.large(), unknown.numbers());
         self.unknowns.iter().flat_map(each).collect()
@@ -200,7 +200,7 @@ impl Layout {
 }
 
 impl Guess {
-    /// As a scene file would hold it: frames whole, other numbers with few digits.
+    /// Rounded as in a scene file: frames whole, other numbers with few digits.
     pub fn rounded(&self, wind: &KeyedWind, dynamics: &Dynamics) -> Answer {
         let thousandth = |x: f64| ((x * 1000.0).round() / 1000.0) as f32;
         let as_it_was = |now: f32, x: f64| if f64::from(now) == x { now } else { thousandth(x) };
@@ -224,7 +224,7 @@ impl Guess {
     }
 }
 
-/// A profile times a factor, four digits of each number; as it was times 1.
+/// A profile times a factor, each number with four digits; unchanged if the factor is 1.
 fn times(profile: &Profile, factor: f64) -> Profile {
     if factor == 1.0 {
         return profile.clone();
@@ -246,12 +246,12 @@ fn times(profile: &Profile, factor: f64) -> Profile {
 fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynamics) -> Result<(), SettingError> {
     let there = || match intervals {
         0 => "there is no [[force]]: ask for a new interval".to_owned(),
-        1 => "there is one [[force]], number 0; or ask for a new interval".to_owned(),
-        n => format!("there are {n} [[force]], 0 to {}; or ask for a new interval", n - 1),
+        1 => "the only [[force]] is number 0: name it, or ask for a new interval".to_owned(),
+        n => format!("must be one of the {n} [[force]], 0 to {}: or ask for a new interval", n - 1),
     };
     let free = |thing: &str, of: fn(&FreeForm) -> &Profile| match &dynamics.form {
         Form::Free(free) if of(&free.form).values().iter().all(|&value| value == 0.0) => {
-            let remedy = "it is 0 everywhere, and the solver only scales it: give it a strength, or remove this";
+            let remedy = "the solver only scales it, but it is 0 everywhere: give it a strength, or remove this";
             Err(SettingError::new(thing, true, remedy))
         }
         Form::Free(_) => Ok(()),

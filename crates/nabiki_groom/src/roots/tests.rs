@@ -47,7 +47,7 @@ fn roots_lie_on_the_skin_and_point_out_of_it() {
 #[test]
 fn more_roots_than_their_candidates_can_be_counted_are_refused_by_name() {
     let refused = spread_first(&BUST, &Hairline::default(), MOST + 1, 1, 1).unwrap_err();
-    assert_eq!(refused.to_string(), "hair.strands = 800000001: must be at most 800000000: grow less");
+    assert_eq!(refused.to_string(), "hair.strands = 800000001: must be at most 800000000: grow fewer");
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn settings_off_the_head_are_refused_by_name() {
     let text = refused(Hairline { nape: 9.0, ..Hairline::default() });
     assert!(text.starts_with("hair.hairline.nape = 9"), "{text}");
     let bald = Hairline { forehead: 0.0, sideburns: 0.0, above_ears: 0.0, nape: 0.0, fade: 1.0, ..Hairline::default() };
-    assert!(refused(bald).starts_with("hair.hairline = no scalp"));
+    assert!(refused(bald).starts_with("hair.hairline leaves no scalp"));
 }
 
 #[test]

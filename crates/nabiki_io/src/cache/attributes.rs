@@ -116,7 +116,7 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Coun
             b"c_transp" => a.constant.transparency = finite::values(&name, block.values(1)?)?.pop(),
             b"grp_name" => {
                 let text: Vec<u8> = block.values(length as usize)?;
-                let damaged = || Error::new("attribute grp_name: not a number and a name: the file is damaged");
+                let damaged = || Error::new("attribute grp_name: is not a number and a name: the file is damaged");
                 let (number, text) = text.split_first_chunk().ok_or_else(damaged)?;
                 let text = std::str::from_utf8(text).map_err(|_| damaged())?;
                 a.group_names.insert(i32::from_le_bytes(*number), text.to_owned());
@@ -144,7 +144,7 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, end: u64, counts: Coun
     }
     let origin = match (origin, groom) {
         (Some((placement, points)), Some(groom)) => Some(Origin { placement, points, groom, in_world }),
-        (Some(_), None) => return Err(Error::new("attribute origin: without the block groom: the file is damaged")),
+        (Some(_), None) => return Err(Error::new("attribute origin: the block groom is missing: the file is damaged")),
         (None, _) => None,
     };
     Ok(Blocks { attributes: a, origin, piece, bounds, first_frame, sums })

@@ -64,7 +64,7 @@ pub(super) fn from_bytes(bytes: &[u8]) -> Result<(Placement, u64)> {
     let &[cm, up, facing, x, y, z, low, high] = words else { return Err(damaged("not eight words")) };
     let axis = |word: [u8; 4]| {
         let axis = AXES.get(u32::from_le_bytes(word) as usize);
-        axis.copied().ok_or_else(|| damaged("an axis beyond the sixth"))
+        axis.copied().ok_or_else(|| damaged("unknown axis"))
     };
     let placement = Placement {
         unit: Unit { cm: f32::from_le_bytes(cm) },
@@ -97,7 +97,7 @@ fn course_of(number: u32) -> Option<Course> {
 /// Two numbers, of the name's bytes and of the curves, the name, then of each curves' points, its path's bytes, and it. There follow
 /// for each a number, of [`BASES`] and the two after it, and the columns of the transform above it.
 pub(super) fn groom_bytes(groom: &GroomCurves) -> Result<Vec<u8>> {
-    let whole = |n: usize| u32::try_from(n).map_err(|_| Error::new("the groom's file: a name of 2^32 bytes or more"));
+    let whole = |n: usize| u32::try_from(n).map_err(|_| Error::new("the groom's file: a name has 2^32 bytes or more"));
     let mut out = Vec::new();
     put(&mut out, &[whole(groom.file.len())?, whole(groom.curves.len())?])?;
     out.extend_from_slice(groom.file.as_bytes());

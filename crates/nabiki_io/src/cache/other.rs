@@ -42,7 +42,7 @@ const SINGLE: u32 = 0x100;
 /// The values of a block.
 pub(super) fn bytes(other: &Other) -> Result<Vec<u8>> {
     let whole = |n: usize, what: &str| {
-        u32::try_from(n).map_err(|_| Error::new(format!("attribute {}: {what} of 2^32 or more", other.name)))
+        u32::try_from(n).map_err(|_| Error::new(format!("attribute {}: {what} is 2^32 or more", other.name)))
     };
     let per = PER.iter().position(|&per| per == other.per).unwrap_or_default() as u32;
     let role = ROLES.iter().position(|&role| role == other.role).unwrap_or_default() as u32;
@@ -53,9 +53,12 @@ pub(super) fn bytes(other: &Other) -> Result<Vec<u8>> {
         Values::Words(_) => WORDS,
     };
     if other.extent == 0 {
-        return Err(Error::new(format!("attribute {}: values of no numbers: one at least", other.name)));
+        return Err(Error::new(format!(
+            "attribute {}: its values have no numbers: give at least one each",
+            other.name
+        )));
     }
-    let (extent, name) = (whole(other.extent, "an extent")?, whole(other.name.len(), "a name")?);
+    let (extent, name) = (whole(other.extent, "its extent")?, whole(other.name.len(), "the length of its name")?);
     let mut out = Vec::new();
     let stored = STORED.iter().position(|&stored| stored == other.stored).map_or(0, |at| at as u32 + 1);
     let stored = stored | if other.single { SINGLE } else { 0 };
@@ -68,7 +71,7 @@ pub(super) fn bytes(other: &Other) -> Result<Vec<u8>> {
         Values::Integers(values) => put(&mut out, values)?,
         Values::Words(words) => {
             for word in words {
-                put(&mut out, &[whole(word.len(), "a word")?])?;
+                put(&mut out, &[whole(word.len(), "the length of a word")?])?;
                 out.extend_from_slice(word.as_bytes());
             }
         }
@@ -83,16 +86,16 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, length: u64, strands: 
         return Err(damaged("too short"));
     }
     let [per, role, kind, extent, name_bytes, stored]: [u32; 6] = source.value("attribute other")?;
-    let per = *PER.get(per as usize).ok_or_else(|| damaged("of neither groom, strands nor points"))?;
-    let role = *ROLES.get(role as usize).ok_or_else(|| damaged("a role beyond the sixth"))?;
+    let per = *PER.get(per as usize).ok_or_else(|| damaged("is not of groom, strands or points"))?;
+    let role = *ROLES.get(role as usize).ok_or_else(|| damaged("unknown role"))?;
     if extent == 0 {
-        return Err(damaged("values of no numbers"));
+        return Err(damaged("values without numbers"));
     }
     let name_room = u64::from(name_bytes).next_multiple_of(8);
     let left = (length - HEAD_BYTES).checked_sub(name_room).ok_or_else(|| damaged("a name longer than its block"))?;
     let mut name: Vec<u8> = source.array(name_room as usize, "attribute name")?;
     name.truncate(name_bytes as usize);
-    let name = String::from_utf8(name).map_err(|_| damaged("a name that is no text"))?;
+    let name = String::from_utf8(name).map_err(|_| damaged("a name that is not text"))?;
     let values = match kind {
         FLOATS => Values::Floats(numbers(source, left, &name)?),
         DOUBLES => Values::Doubles(numbers(source, left, &name)?),
@@ -107,13 +110,13 @@ pub(super) fn read<R: Read + Seek>(source: &mut Bytes<R>, length: u64, strands: 
         Per::Point => extent.checked_mul(points) == Some(found),
     };
     if !fits {
-        let hair = format!("{extent} a value, {strands} strands, {points} points");
+        let hair = format!("{extent} per value, {strands} strands, {points} points");
         return Err(Error::new(format!("attribute {name}: {found} numbers or words do not fit ({hair})")));
     }
     let single = stored & SINGLE != 0;
     let stored = match (stored & !SINGLE) as usize {
         0 => Stored::of(&values),
-        number => *STORED.get(number - 1).ok_or_else(|| damaged("stored in a way beyond the fourteenth"))?,
+        number => *STORED.get(number - 1).ok_or_else(|| damaged("unknown way of storage"))?,
     };
     Ok(Other { name, per, role, extent, stored, single, values })
 }
@@ -129,7 +132,7 @@ fn numbers<T: Scalar, R: Read + Seek>(source: &mut Bytes<R>, bytes: u64, name: &
 /// Words, each behind the number of its bytes.
 fn words<R: Read + Seek>(source: &mut Bytes<R>, bytes: u64, name: &str) -> Result<Vec<String>> {
     let text: Vec<u8> = source.array(bytes as usize, name)?;
-    let damaged = || Error::new(format!("attribute {name}: words that do not fill their block: the file is damaged"));
+    let damaged = || Error::new(format!("attribute {name}: its words do not fill their block: the file is damaged"));
     let mut all = Vec::new();
     let mut rest = &text[..];
     while !rest.is_empty() {

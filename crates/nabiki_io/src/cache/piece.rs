@@ -28,7 +28,7 @@ impl Shard {
     pub fn new(number: u32, of: u32) -> Result<Self> {
         if number == 0 || number > of {
             let line = match of {
-                0 => "there must be one shard at least: 1/1 is all".to_owned(),
+                0 => "there must be at least one shard: 1/1 is everything".to_owned(),
                 _ => format!("shards are counted from 1/{of} to {of}/{of}"),
             };
             return Err(Error::new(format!("shard {number}/{of}: {line}")));
@@ -103,7 +103,8 @@ impl Piece {
         put(&mut out, &[self.shard.number, self.shard.of])?;
         put(&mut out, &[self.strands])?;
         out.extend([self.settings.0, self.groom.0, self.sum.0].into_iter().flat_map(u128::to_le_bytes));
-        let length = u32::try_from(self.command.len()).map_err(|_| Error::new("shard: a command of 4 GB"))?;
+        let length =
+            u32::try_from(self.command.len()).map_err(|_| Error::new("shard: its command has 4 GiB or more"))?;
         put(&mut out, &[u32::from(self.reference), length])?;
         out.extend_from_slice(self.command.as_bytes());
         Ok(out)
@@ -155,7 +156,7 @@ mod tests {
         for (text, why) in [
             ("0/3", "shards are counted from 1/3 to 3/3"),
             ("4/3", "shards are counted from 1/3 to 3/3"),
-            ("3/0", "1/1 is all"),
+            ("3/0", "1/1 is everything"),
             ("a/b", "K/N"),
             ("3", "K/N"),
             ("1/2/3", "K/N"),

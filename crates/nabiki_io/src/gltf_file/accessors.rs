@@ -112,9 +112,9 @@ fn items<T: Copy + Default, const N: usize>(
     let of_values = Part { index, offset: values.offset(), count: sparse.count(), size: N * width };
     let numbers = of_indices.within(&indices.view(), buffers)?.map(whole_number);
     for (at, value) in numbers.zip(of_values.within(&values.view(), buffers)?) {
-        let room = items.get_mut(at as usize).ok_or_else(|| {
-            Error::new(format!("accessor {index}: its sparse item {at} is beyond the {count} there are"))
-        })?;
+        let room = items
+            .get_mut(at as usize)
+            .ok_or_else(|| Error::new(format!("accessor {index}: its sparse item {at} is past its {count} items")))?;
         *room = item(value);
     }
     Ok(items)
@@ -149,7 +149,7 @@ impl Part {
             view_bytes.get(offset..offset.checked_add(length)?)
         };
         let slice =
-            slice().ok_or_else(|| Error::new(format!("accessor {index}: {count} items reach beyond their buffer")))?;
+            slice().ok_or_else(|| Error::new(format!("accessor {index}: {count} items reach past their buffer")))?;
         Ok(slice.chunks(stride).map(move |chunk| &chunk[..size]))
     }
 }

@@ -66,7 +66,7 @@ impl fmt::Display for CacheInfo {
         let head = if self.head_moves { "moves" } else { "stands still" };
         writeln!(
             f,
-            "from first to last frame a point moves {} cm at most; the head {head}",
+            "from first to last frame a point moves at most {} cm; the head {head}",
             Short(self.farthest_move)
         )?;
         write!(f, "{}\nunit: cm; up: +y; facing: +x (head space)", self.rest)

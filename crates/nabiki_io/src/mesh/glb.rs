@@ -25,7 +25,7 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
     each_part(&document, &buffers, groups, &mut |part| part.append_to(&mut mesh, &buffers, &mut unread))?;
     let used = |extension: &str| document.extensions_used().any(|used| used == extension);
     if mesh.corner_uvs.is_some() && used("KHR_texture_transform") {
-        unread.push("KHR_texture_transform: texture coordinates are as the meshes have them".to_owned());
+        unread.push("KHR_texture_transform: texture coordinates are read without it".to_owned());
     }
     if used("EXT_mesh_gpu_instancing") {
         unread.push("EXT_mesh_gpu_instancing: each mesh is used once, at its node".to_owned());
@@ -34,7 +34,7 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
         && let Some(mode) =
             document.meshes().flat_map(|mesh| mesh.primitives()).find_map(|other| not_a_surface(other.mode()))
     {
-        return Err(Error::new(format!("holds {mode} and no triangles of what is wanted: export triangles")));
+        return Err(Error::new(format!("holds {mode} instead of the triangles requested: export triangles")));
     }
     let mesh = check(mesh, &mut unread)?;
     unread.sort();
@@ -203,7 +203,7 @@ impl<'a> Part<'a> {
             Some(indices) => whole_numbers::<1>(&indices, buffers, "indices")?.into_iter().map(|[i]| i).collect(),
         };
         if let Some(&bad) = indices.iter().find(|&&v| v as usize >= count) {
-            return Err(Error::new(format!("index {bad} names a vertex beyond the {count} there are")));
+            return Err(Error::new(format!("index {bad} is past the {count} vertices")));
         }
         let triangles = match self.primitive.mode() {
             Mode::Triangles => indices.len() / 3,
@@ -225,7 +225,7 @@ impl<'a> Part<'a> {
 
     /// What bends it over time, which a head or body does not.
     fn bends(&self) -> impl Iterator<Item = String> {
-        const STILL: &str = "it keeps the shape that it has in the file's still pose";
+        const STILL: &str = "it keeps its shape in the file's still pose";
         let name = self.name();
         let skin = self.carriers.as_ref().and_then(|_| self.node.skin()).map(|skin| match skin.joints().count() {
             1 => format!("the joint that {name} is bound to: {STILL}"),
@@ -254,7 +254,7 @@ fn positions(primitive: &gltf::Primitive, weights: &[f32], buffers: &Buffers<'_>
         let moved = numbers(accessor, "morphs")?;
         if moved.len() != positions.len() {
             let (moved, count) = (moved.len(), positions.len());
-            return Err(Error::new(format!("a morph of {moved} vertices, of {count}")));
+            return Err(Error::new(format!("a morph has {moved} vertices instead of {count}")));
         }
         positions.iter_mut().zip(moved).for_each(|(place, by)| *place += weight * Vec3::from(by));
     }

@@ -46,7 +46,7 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String], lost: &mut Vec<String>
                     face.push((vertex, uv.and_then(|uv| uvs[uv])));
                 }
                 if face.len() < 3 {
-                    return Err(obj_text::refusal(line, i + 1, "a face has three vertices or more"));
+                    return Err(obj_text::refusal(line, i + 1, "a face needs at least three vertices"));
                 }
                 budget.take((face.len() - 2) as u64 * TRIANGLE_BYTES, "triangles")?;
                 push_fan(&mut mesh, &face);

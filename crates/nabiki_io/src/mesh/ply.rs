@@ -123,7 +123,7 @@ pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
     }
     let vertices = mesh.positions.len();
     if let Some(v) = mesh.triangles.iter().flatten().find(|&&v| v as usize >= vertices) {
-        return Err(Error::new(format!("a face names vertex {v} of {vertices}")));
+        return Err(Error::new(format!("a face names vertex {v}, but there are {vertices}")));
     }
     if mesh.corner_uvs.is_none() && uvs.len() == vertices {
         mesh.corner_uvs = Some(mesh.triangles.iter().map(|t| t.map(|v| uvs[v as usize])).collect());
@@ -136,7 +136,7 @@ fn check_counts(encoding: Encoding, elements: &[Element], body: &[u8]) -> Result
     let mut least = 0usize;
     for Element { name, count, properties } in elements {
         if properties.is_empty() && *count > 0 {
-            return Err(Error::new(format!("claims {count} of {name}, which have no properties")));
+            return Err(Error::new(format!("element {name} has {count} entries but no properties")));
         }
         let least_of = |property: &Property| match encoding {
             // A digit and a blank.
@@ -149,7 +149,7 @@ fn check_counts(encoding: Encoding, elements: &[Element], body: &[u8]) -> Result
         if least > body.len() + 1 {
             let found = body.len();
             return Err(Error::new(format!(
-                "claims {count} of {name}, more than its {found} bytes hold: is it complete?"
+                "element {name} has {count} entries, more than fit in {found} bytes: is it complete?"
             )));
         }
     }
@@ -172,7 +172,7 @@ fn corner(value: f64) -> Result<u32> {
     if value.fract() == 0.0 && (0.0..4_294_967_296.0).contains(&value) {
         Ok(value as u32)
     } else {
-        Err(Error::new(format!("a face names vertex {value}, which is none")))
+        Err(Error::new(format!("a face names vertex {value}, which is not a vertex number")))
     }
 }
 
@@ -347,12 +347,12 @@ mod tests {
             assert!(file.contains(from), "{from}");
             from_bytes(file.replacen(from, to, 1).as_bytes()).unwrap_err().to_string()
         };
-        assert!(broken("vertex 4", "vertex 99999999999").contains("more than its"));
+        assert!(broken("vertex 4", "vertex 99999999999").contains("more than fit in"));
         assert!(
-            broken("element face", "element vertex 9\nelement face").contains("9 of vertex, which have no properties")
+            broken("element face", "element vertex 9\nelement face").contains("vertex has 9 entries but no properties")
         );
-        assert!(broken("0 1 2 3", "0 1 2 4").contains("vertex 4 of 4"));
-        assert!(broken("0 1 2 3", "0 1 -2 3").contains("which is none"));
+        assert!(broken("0 1 2 3", "0 1 2 4").contains("vertex 4, but there are 4"));
+        assert!(broken("0 1 2 3", "0 1 -2 3").contains("which is not a vertex number"));
         assert!(broken("1 9 1 0.5", "1 9 inf 0.5").contains("is not a place"));
         assert!(broken("4 0 1 2 3", "1e30 0 1 2 3").contains("ends within"));
         assert!(broken("property float x", "property matrix x").contains("not understood"));

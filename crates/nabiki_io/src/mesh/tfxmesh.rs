@@ -33,7 +33,7 @@ pub(super) fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
         let mut corner = || rest.next().and_then(|word| word.parse().ok()).filter(|&v: &u32| v < vertices);
         let corners = (corner(), corner(), corner());
         let (Some(a), Some(b), Some(c)) = corners else {
-            let why = format!("a triangle has three of the {vertices} vertices, the first of which is 0");
+            let why = format!("a triangle needs three of the {vertices} vertices, counted from 0");
             return Err(obj_text::refusal(line, number, &why));
         };
         triangles.push([a, b, c]);
@@ -42,7 +42,7 @@ pub(super) fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
 }
 
 fn next<'a>(lines: &mut Lines<'a>, wanted: &str) -> Result<(usize, &'a str)> {
-    lines.next().ok_or_else(|| Error::new(format!("ends where {wanted} should follow: is it complete?")))
+    lines.next().ok_or_else(|| Error::new(format!("ends before {wanted}: is it complete?")))
 }
 
 /// The number behind `keyword`.

@@ -126,7 +126,7 @@ impl Skeleton {
             }
             let word = words[0].to_ascii_lowercase();
             match (section.as_str(), word.as_str()) {
-                ("", _) => return Err(refusal(line, format!("\"{word:.40}\": a keyword such as :version goes first"))),
+                ("", _) => return Err(refusal(line, format!("\"{word:.40}\": a keyword like :version comes first"))),
                 (":units", "length") => {
                     let length = number(line, words.get(1), "length")?;
                     if length <= 0.0 {
@@ -201,7 +201,7 @@ impl Skeleton {
         let parents = self.bones.iter().map(|bone| bone.parent).collect();
         let chain = Tree { kind: "bone", names, parents }.chain(node)?;
         if chain[0] != 0 {
-            return Err(Error::new(format!("bone {node}: :hierarchy does not hang it below the root")));
+            return Err(Error::new(format!("bone {node}: :hierarchy does not connect it to the root")));
         }
         Ok(chain)
     }
@@ -227,7 +227,7 @@ impl Skeleton {
                         check_poses(chain.len(), samples.len())?;
                         samples.push(self.pose(chain, &row, samples.len() + 1, degrees).map_err(|e| at(e, begun))?);
                         if before.checked_add(1) != Some(next) {
-                            let what = format!("frame {next} follows frame {before}: frames must be without gaps");
+                            let what = format!("frame {next} follows frame {before}: frames must have no gaps");
                             return Err(refusal(line, what));
                         }
                     }
@@ -253,11 +253,11 @@ impl Skeleton {
         })?;
         let (given, wanted) = (words.len(), self.bones[bone].freedoms.len());
         if given != wanted {
-            let what = format!("bone {name}: {given} numbers, where the skeleton gives it {wanted} degrees of freedom");
+            let what = format!("bone {name}: {given} numbers, but the skeleton gives it {wanted} degrees of freedom");
             return Err(refusal(line, what));
         }
         if std::mem::replace(&mut row.frame[bone], sample) == sample {
-            return Err(refusal(line, format!("bone {name}: twice in one frame")));
+            return Err(refusal(line, format!("bone {name}: occurs twice in one frame")));
         }
         row.values[bone].clear();
         for word in words {

@@ -74,10 +74,10 @@ fn motion(words: &mut Words<'_>, joints: &[Joint], columns: usize, chain: &[usiz
         frame += 1;
     }
     if frame == 0 {
-        return Err(Error::new(format!("declares {frames} frames and has none: is it complete?")));
+        return Err(Error::new(format!("declares {frames} frames but has none: is it complete?")));
     }
     if frame as f64 != frames {
-        track.unlike = Some(format!("the {frame} frames that are there, of {frames} declared"));
+        track.unlike = Some(format!("{frame} of the {frames} declared"));
     }
     Ok(track)
 }
@@ -123,7 +123,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
         match &*word.to_ascii_uppercase() {
             kind @ ("ROOT" | "JOINT") => {
                 if kind == "JOINT" && current.is_none() {
-                    return Err(words.refusal(word, "a joint hangs below another; the first is a ROOT"));
+                    return Err(words.refusal(word, "a joint must be inside another; the first must be a ROOT"));
                 }
                 let name = words.line_before('{', "a joint's name")?.to_owned();
                 words.expect("{")?;
@@ -138,7 +138,7 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 open.push(None);
             }
             "}" => {
-                open.pop().ok_or_else(|| words.refusal(word, "a closing brace too many"))?;
+                open.pop().ok_or_else(|| words.refusal(word, "has no opening brace"))?;
             }
             "OFFSET" => {
                 let x = words.number("OFFSET")?;
@@ -149,22 +149,22 @@ fn hierarchy(words: &mut Words<'_>) -> Result<(Vec<Joint>, usize)> {
                 }
             }
             "CHANNELS" => {
-                let j = current.ok_or_else(|| words.refusal(word, "channels belong to a joint"))?;
+                let j = current.ok_or_else(|| words.refusal(word, "channels must belong to a joint"))?;
                 if !joints[j].channels.is_empty() {
-                    return Err(words.refusal(word, &format!("joint {} has its channels already", joints[j].name)));
+                    return Err(words.refusal(word, &format!("joint {} already has channels", joints[j].name)));
                 }
                 let count = words.number("CHANNELS")?;
                 joints[j].first_column = columns;
                 while (joints[j].channels.len() as f64) < count {
                     let name = words.next("a channel's name")?;
                     let channel =
-                        channel(name).ok_or_else(|| words.refusal(name, "a channel is one of Xposition .. Zrotation"));
+                        channel(name).ok_or_else(|| words.refusal(name, "a channel must be Xposition .. Zrotation"));
                     joints[j].channels.push(channel?);
                 }
                 columns += joints[j].channels.len();
             }
             "MOTION" if open.is_empty() => return Ok((joints, columns)),
-            _ => return Err(words.refusal(word, "not a word of a hierarchy")),
+            _ => return Err(words.refusal(word, "is not a keyword of a hierarchy")),
         }
     }
 }

@@ -29,11 +29,11 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let json = document.as_json();
     for target in json.animations[animation.index()].channels.iter().map(|channel| &channel.target) {
         if matches!(target.path, gltf::json::validation::Checked::Invalid) {
-            return Err(Error::new("a channel moves something that is no translation, rotation, scale or weights"));
+            return Err(Error::new("a channel moves something other than translation, rotation, scale or weights"));
         }
         let (node, count) = (target.node.value(), json.nodes.len());
         if node >= count {
-            return Err(Error::new(format!("a channel moves node {node}, there are {count}")));
+            return Err(Error::new(format!("a channel moves node {node}, but there are {count}")));
         }
     }
 
@@ -54,7 +54,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         let node = channel.target().node();
         let name = node.name().unwrap_or("without a name");
         if times.is_empty() || !times.iter().all(|t| t.is_finite()) || times.windows(2).any(|w| w[0] >= w[1]) {
-            return Err(Error::new(format!("clip of node {name}: its times must grow and be finite")));
+            return Err(Error::new(format!("clip of node {name}: its times must increase and be finite")));
         }
         start = start.min(times[0]);
         end = end.max(times[times.len() - 1]);
@@ -210,7 +210,7 @@ impl Curve {
         let each = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
         if values.len() != each * times.len() {
             let (v, t) = (values.len(), times.len());
-            return Err(Error::new(format!("clip of node {node}: {v} values for {t} times ({each} each are needed)")));
+            return Err(Error::new(format!("clip of node {node}: {v} values for {t} times (each needs {each})")));
         }
         match values.iter().position(|v| !v.is_finite()) {
             Some(i) => Err(Error::new(format!("clip of node {node}: value {i} is not finite"))),

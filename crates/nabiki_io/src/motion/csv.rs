@@ -59,7 +59,7 @@ impl<'a> Columns<'a> {
         let names: Vec<&str> = cells(header);
         if names.len() > MOST_COLUMNS {
             return Err(Error::new(format!(
-                "names more than {MOST_COLUMNS} columns, of which eight are poses: leave out others"
+                "names more than {MOST_COLUMNS} columns, but a pose needs only eight: remove others"
             )));
         }
         if let Some(separator) = [(';', "semicolons"), ('\t', "tabs")].iter().find(|(c, _)| header.contains(*c)) {
@@ -68,7 +68,7 @@ impl<'a> Columns<'a> {
         let place = |name: &str| names.iter().position(|found| *found == name);
         let lacks = |name: &str| {
             let all = "t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw";
-            Error::new(format!("no column {name} in \"{header:.80}\": a header names {all}"))
+            Error::new(format!("no column {name} in \"{header:.80}\": a header must name {all}"))
         };
         let in_unit = |name: &str| UNITS.into_iter().find(|(ending, _)| place(&format!("{name}{ending}")).is_some());
         let (ending, unit_cm) = in_unit("px").ok_or_else(|| lacks("px_m, px_cm or px_mm"))?;
@@ -80,7 +80,7 @@ impl<'a> Columns<'a> {
                 None => {
                     return Err(match in_unit(name).filter(|_| name.starts_with('p')) {
                         Some((other, _)) => {
-                            let way = "positions have one unit: convert a column and name it so";
+                            let way = "positions must share a unit: convert and rename one column";
                             Error::new(format!("column {name}{other} beside px{ending}: {way}"))
                         }
                         None => lacks(&full),
@@ -88,7 +88,7 @@ impl<'a> Columns<'a> {
                 }
             };
             if names.iter().filter(|other| **other == full).count() > 1 {
-                return Err(Error::new(format!("column {full} stands twice: remove or rename one")));
+                return Err(Error::new(format!("column {full} occurs twice: remove or rename one")));
             }
         }
         Ok(Self { names, places, unit_cm })
@@ -100,7 +100,7 @@ impl<'a> Columns<'a> {
         let (found, wanted) = (cells.len(), self.names.len());
         // Some programs end rows with a comma.
         if found < wanted || cells[wanted..].iter().any(|cell| !cell.is_empty()) {
-            let what = format!("{found} cells, where the header names {wanted} columns: a comma too few or too many?");
+            let what = format!("{found} cells, but the header names {wanted} columns: is a comma missing or extra?");
             return Err(Error::new(what));
         }
         let mut values = [0.0; 8];
@@ -190,10 +190,10 @@ mod tests {
             let named = if name == "px_cm" { "px_m, px_cm or px_mm" } else { name };
             assert!(line == Some(1) && said.starts_with(&format!("no column {named} in ")), "{said}");
             let (_, said) = refused(&format!("{HEADER},{name}\n0,1,2,3,0,0,0,1,9\n"));
-            assert_eq!(said, format!("column {name} stands twice: remove or rename one"));
+            assert_eq!(said, format!("column {name} occurs twice: remove or rename one"));
         }
         let (_, said) = refused(&format!("{}\n", HEADER.replace("py_cm", "py_m")));
-        assert_eq!(said, "column py_m beside px_cm: positions have one unit: convert a column and name it so");
+        assert_eq!(said, "column py_m beside px_cm: positions must share a unit: convert and rename one column");
         let (_, said) = refused(&format!("{}\n", HEADER.replace(',', ";")));
         assert_eq!(said, "columns are separated by semicolons: save the table with commas");
     }
@@ -205,7 +205,7 @@ mod tests {
             let (line, said) = refused(&format!("{HEADER}\n{row}\n"));
             let cells = row.split(',').count();
             assert_eq!(line, Some(2));
-            assert!(said.starts_with(&format!("{cells} cells, where the header names 8 columns")), "{said}");
+            assert!(said.starts_with(&format!("{cells} cells, but the header names 8 columns")), "{said}");
         }
         let read = track(&format!("\u{feff}{HEADER}\n0,1,2,3,0,0,0,1,\n")).unwrap();
         assert_eq!((read.samples[0].position, read.unit_cm), (DVec3::new(1.0, 2.0, 3.0), Some(1.0)));

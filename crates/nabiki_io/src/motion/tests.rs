@@ -75,16 +75,14 @@ fn the_frames_that_are_there_count_and_not_those_that_are_declared() {
         let (_folder, path) = written("walk.bvh", text(declared, rows).as_bytes());
         let found = read(&straight(path.clone(), Some(1.0)), 25.0).unwrap();
         assert_eq!(found.poses.len(), rows, "{declared} declared");
-        let said = format!("the {rows} frames that are there, of {declared} declared");
+        let said = format!("{rows} of the {declared} declared");
         assert_eq!(found.report.contains(&said), declared != rows, "{}", found.report);
         let info = survey(&path).unwrap();
         assert_eq!((info.samples, info.unlike), (rows, (declared != rows).then_some(said)));
     }
     let refused = |text: String| bvh::track(&text, "Head").unwrap_err().to_string();
-    assert!(
-        refused(text(4, 3) + "1 2 3\n").contains("frame 3 of 4, Hips.Xrotation: ends where a number should follow")
-    );
-    assert_eq!(refused(text(3, 0)), "declares 3 frames and has none: is it complete?");
+    assert!(refused(text(4, 3) + "1 2 3\n").contains("frame 3 of 4, Hips.Xrotation: ends before a number"));
+    assert_eq!(refused(text(3, 0)), "declares 3 frames but has none: is it complete?");
     assert!(refused(text(1, 1) + "and more\n").contains("frame 1 of 1, Hips.Zposition: \"and\": its value must be"));
 }
 
@@ -127,10 +125,10 @@ fn joints_of_one_name_are_told_apart_or_refused() {
     assert_ne!(skeleton, TOF_SKELETON);
     let source = MotionSource { skeleton: Some("b.tof".into()), ..straight("a.tof".into(), Some(1.0)) };
     let error = track(&source, TOF, Some(&skeleton)).unwrap_err().to_string();
-    assert!(error.starts_with("b.tof: joint The \"Neck\": twice in the skeleton"), "{error}");
+    assert!(error.starts_with("b.tof: joint The \"Neck\": occurs twice in the skeleton"), "{error}");
     let animation = TOF.replace("\"Head\"", "\"The \\\"Neck\\\"\"");
     let error = track(&source, &animation, Some(TOF_SKELETON)).unwrap_err().to_string();
-    assert!(error.starts_with("a.tof: joint The \"Neck\": twice in the animation"), "{error}");
+    assert!(error.starts_with("a.tof: joint The \"Neck\": occurs twice in the animation"), "{error}");
 }
 
 #[test]
@@ -147,11 +145,11 @@ fn an_error_in_motion_names_file_line_and_channel() {
     );
     assert_eq!(
         refused(channels, "0 0 0 0 0 0 0 0"),
-        "walk.bvh: frame 0 of 1, Head.Yrotation: ends where a number should follow: is it complete?"
+        "walk.bvh: frame 0 of 1, Head.Yrotation: ends before a number: is it complete?"
     );
     assert_eq!(
         refused("Zrotation Wrotation Yrotation", "0 0 0 0 0 0 0 0 0"),
-        "walk.bvh:9: \"Wrotation\": a channel is one of Xposition .. Zrotation"
+        "walk.bvh:9: \"Wrotation\": a channel must be Xposition .. Zrotation"
     );
 }
 
@@ -303,7 +301,7 @@ fn what_a_file_cannot_say_is_asked_for() {
     let error = |source: &MotionSource| read(source, 24.0).unwrap_err().to_string();
     assert!(error(&bare).contains("unit_cm is not in the file"), "{}", error(&bare));
     let wrong = MotionSource { facing: Some(Axis::MinusY), ..straight(path.clone(), Some(1.0)) };
-    assert!(error(&wrong).contains("normal to each other"), "{}", error(&wrong));
+    assert!(error(&wrong).contains("must be perpendicular"), "{}", error(&wrong));
     let unknown = MotionSource { node: "Haed".into(), ..straight(path, Some(1.0)) };
     assert!(error(&unknown).contains("node can be Hips, Head"), "{}", error(&unknown));
 }

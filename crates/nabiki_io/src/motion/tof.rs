@@ -72,7 +72,7 @@ pub(super) fn animation(text: &str) -> Result<Vec<AnimatedJoint>> {
         for _ in 0..words.count("keys")? {
             let key = words.key().map_err(|e| e.under(format!("joint {}", joint.name)))?;
             if joint.keys.last().is_some_and(|last| last.time >= key.time) {
-                let what = format!("joint {}: time {} s: times must grow", joint.name, key.time);
+                let what = format!("joint {}: time {} s: times must increase", joint.name, key.time);
                 return Err(Error::new(what).at_line(Some(words.line())));
             }
             joint.keys.push(key);
@@ -109,7 +109,7 @@ pub(super) fn chain(skeleton: &[Joint], node: &str) -> Result<Vec<String>> {
 
 /// Joints are told apart, and find their parents and keys, by name alone.
 fn twice(name: &str, place: &str) -> Error {
-    Error::new(format!("joint {name:.80}: twice in {place}, where names must differ: rename one of them"))
+    Error::new(format!("joint {name:.80}: occurs twice in {place}, but names must differ: rename one"))
 }
 
 /// The way of the last joint of `chain`, at every time at which a joint of it has a key.
@@ -166,8 +166,8 @@ fn object<'a>(text: &'a str, class: &str) -> Result<(Words<'a>, HashMap<String, 
     let mut others: Vec<&str> = Vec::new();
     loop {
         let word = words.next(class).map_err(|_| {
-            let held = if others.is_empty() { "nothing".to_owned() } else { others.join(", ") };
-            Error::new(format!("holds no {class} but {held}: is this the right file?"))
+            let held = if others.is_empty() { "other text".to_owned() } else { others.join(", ") };
+            Error::new(format!("holds no {class}, only {held}: is this the right file?"))
         })?;
         match word {
             "declare" => {
@@ -222,7 +222,7 @@ fn expect(shapes: &HashMap<String, Shape>, class: &str, known: &[(&str, &str)]) 
 fn expect_first(shapes: &HashMap<String, Shape>, class: &str, name: &str, kind: &str) -> Result<()> {
     match shapes.get(class).and_then(|shape| shape.first()) {
         Some((found_name, found)) if found_name == name && found == kind => Ok(()),
-        _ => Err(Error::new(format!("{class} does not begin with {name} {kind}: such a file is not read"))),
+        _ => Err(Error::new(format!("{class} does not begin with {name} {kind}: such files are not read"))),
     }
 }
 

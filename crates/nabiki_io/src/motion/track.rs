@@ -44,7 +44,7 @@ impl Track {
             None => Ok(()),
             Some(i) => {
                 let (a, b) = (self.times[i], self.times[i + 1]);
-                Err(Error::new(format!("sample {}: time {b} s follows {a} s, but times must grow", i + 1)))
+                Err(Error::new(format!("sample {}: time {b} s follows {a} s, but times must increase", i + 1)))
             }
         }
     }

@@ -36,7 +36,7 @@ impl<'a> Words<'a> {
         let rest = rest.trim_ascii_start();
         let length = if self.quotes && rest.starts_with('"') { quoted(rest) } else { unquoted(rest) };
         let Some(length) = length else {
-            return Err(Error::new(format!("ends where {wanted} should follow: is it complete?")));
+            return Err(Error::new(format!("ends before {wanted}: is it complete?")));
         };
         self.rest = self.last + length;
         Ok(&rest[..length])

@@ -72,7 +72,7 @@ impl WorldFromFile {
         }
         let (y, x) = (up.vector(), facing.vector());
         if y.dot(x) != 0.0 {
-            return Err(Error::of_setting(format!("up = {up} and facing = {facing}: must be normal to each other")));
+            return Err(Error::of_setting(format!("up = {up} and facing = {facing}: must be perpendicular")));
         }
         let file_from_world = DQuat::from_mat3(&glam::DMat3::from_cols(x, y, x.cross(y)));
         Ok(Self { rotation: file_from_world.inverse(), unit_cm, up, facing })
@@ -105,7 +105,7 @@ pub(super) fn poses(
     let single: Vec<Pose> = poses.into_iter().map(pose_of).collect();
     match single.iter().position(|p| !(p.position_cm.is_finite() && p.rotation.is_finite())) {
         Some(frame) => {
-            Err(Error::new(format!("frame {frame}: the pose is not finite; look at unit_cm and the file's numbers")))
+            Err(Error::new(format!("frame {frame}: the pose is not finite: check unit_cm and the file's numbers")))
         }
         None => Ok(single),
     }
@@ -134,9 +134,7 @@ pub(super) fn frame_count(duration: f64, frame_rate: f64) -> Result<usize> {
     if (0.0..MOST).contains(&last) {
         Ok(last as usize + 1)
     } else {
-        Err(Error::new(format!(
-            "lasts {duration} s, {last} frames at {frame_rate} a second: more than {MOST} are not read"
-        )))
+        Err(Error::new(format!("lasts {duration} s, {last} frames at {frame_rate} a second: at most {MOST} are read")))
     }
 }
 

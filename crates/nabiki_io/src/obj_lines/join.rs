@@ -181,7 +181,7 @@ impl Lines {
         let meets = |&line: &usize| self.line(line).iter().any(|&v| of(v) == vertex);
         let edges: Vec<usize> = (0..self.len()).filter(meets).collect();
         let why = format!(
-            "{} edges meet at vertex {}, and a strand does not branch: give each strand vertices of its own",
+            "{} edges meet at vertex {}, but strands do not branch: give each strand its own vertices",
             edges.len(),
             vertex + 1
         );
@@ -301,8 +301,7 @@ mod tests {
             from_bytes(text(5, &["1 2", "2 3", "3 4", "3 5"]).as_bytes()).map_err(|e| (e.line, e.what)).unwrap_err(),
             (
                 Some(9),
-                "3 edges meet at vertex 3, and a strand does not branch: give each strand vertices of its own"
-                    .to_owned()
+                "3 edges meet at vertex 3, but strands do not branch: give each strand its own vertices".to_owned()
             )
         );
         let hair = from_bytes(text(9, &["1 2", "3 4", "4 5", "5 3", "6 7 8 6", "2 9"]).as_bytes()).unwrap();

@@ -115,7 +115,7 @@ impl Settings<'_> {
     fn moved(&mut self, key: &str, matrices: &Bound<'_, PyAny>, rate: Option<f64>) -> PyResult<Table> {
         let Some(rate) = rate else {
             let way_out =
-                "needs {\"file\": matrices, \"frames_per_second\": ...}, as the scene that says it is not read yet";
+                "needs a frame rate, which the scene has not set yet: give {\"file\": ..., \"frames_per_second\": ...}";
             return Err(error::argument(matrices.py(), key, "an array", way_out));
         };
         let file = text(key, matrices, &self.files.motion(key, matrices, rate)?)?;
@@ -134,7 +134,7 @@ fn is_array(given: &Bound<'_, PyAny>) -> PyResult<bool> {
 fn text(key: &str, arrays: &Bound<'_, PyAny>, path: &Path) -> PyResult<Value> {
     let text = path.to_str().map(|path| Value::String(path.to_owned()));
     text.ok_or_else(|| {
-        let way_out = "lies in a temporary folder whose name is no text (UTF-8): set TMPDIR to another";
+        let way_out = "is in a temporary folder whose name is not UTF-8: set TMPDIR to another";
         error::argument(arrays.py(), key, path.display(), way_out)
     })
 }

@@ -40,7 +40,7 @@ fn check_picture(py: Python<'_>, file: &Path, ending: &str, others: &str) -> PyR
     }
     match file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
-            Err(error::place(py, file, "is in no folder: make it first", std::io::ErrorKind::NotFound))
+            Err(error::place(py, file, "its folder does not exist: make it first", std::io::ErrorKind::NotFound))
         }
         _ => Ok(()),
     }

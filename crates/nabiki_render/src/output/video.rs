@@ -52,12 +52,12 @@ impl Movie {
         picture.check()?;
         if !codec::IS_BUILT_IN {
             let remedy =
-                "this program was built without the codec of movies: set it to false, and output.png_frames = true";
+                "this program was built without the movie codec: set it to false, and output.png_frames = true";
             return Err(nabiki::SettingError::new("output.movie", true, remedy).into());
         }
         if !(1.0..=240.0).contains(&frame_rate) {
-            let remedy = "a movie has 1 to 240 frames a second: give picture.video.frame_rate, or set output.movie = false, and \
-                 output.png_frames = true for frames as files";
+            let remedy = "must be 1 to 240 for a movie: give picture.video.frame_rate, or set output.movie = false, \
+                 and output.png_frames = true for frames as files";
             return Err(nabiki::SettingError::new("motion.frame_rate", frame_rate, remedy).into());
         }
         if !Self::takes(picture.size) {
@@ -72,7 +72,7 @@ impl Movie {
     }
 
     /// The sizes that [`takes`](Self::takes) accepts, in words.
-    pub const SIZES: &str = "a movie's sides must lie within 16 and 3840 x 2160 pixels";
+    pub const SIZES: &str = "a movie's sides must lie between 16 and 3840 x 2160 pixels";
 
     /// Whether a movie can have this size (pixels), in either orientation.
     pub fn takes(size: [u32; 2]) -> bool {
@@ -163,7 +163,7 @@ impl Movie {
     fn join(&mut self) -> Result<Coder, RenderError> {
         self.planes = None;
         let Some(coding) = self.coding.take() else {
-            return Err(RenderError::write(&self.path, "the movie has failed already"));
+            return Err(RenderError::write(&self.path, "the movie has already failed"));
         };
         coding.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }

@@ -125,8 +125,8 @@ impl Renderer {
             None => "keep bodies farther from the camera",
         };
         let remedy = format!(
-            "with focus at {focus} cm, head or body is blurred by {heights:.1} picture heights, but at most {MOST_BLUR} are \
-             allowed: make it larger, or {way_out}"
+            "with focus at {focus} cm, the head or a body is blurred by {heights:.1} picture heights, but at most {MOST_BLUR} \
+             are allowed: raise it, or {way_out}"
         );
         Err(SettingError::new("picture.camera.f_stop", f_stop, remedy))
     }

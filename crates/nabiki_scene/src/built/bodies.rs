@@ -1,4 +1,4 @@
-//! What hair does not enter besides the head of a scene, or is drawn with it.
+//! The bodies of a scene besides the head: those that hair collides with, and those that are only drawn.
 
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -12,36 +12,36 @@ use super::way::WayInputs;
 use crate::error::Result;
 use crate::scene::{BodySettings, Scene};
 
-/// A body as it is drawn.
+/// A body as drawn.
 #[derive(Debug)]
 pub(crate) struct BuiltBody {
     inputs: BodyInputs,
     /// Its own space (cm).
     pub mesh: Mesh,
-    /// What of the meshes of its file is left out or not obeyed, a phrase each.
+    /// Phrases about unused data of the meshes in its file.
     pub unread: Vec<String>,
     pub way: BodyWay,
     /// How its file lies in that space.
     pub placement: Placement,
-    /// Its skin, once hair is to feel it.
+    /// Its skin, once it is needed for contact.
     shape: OnceLock<Shape>,
 }
 
-/// What a body is made from.
+/// The inputs of a body.
 #[derive(Debug, PartialEq)]
 pub(super) struct BodyInputs {
-    /// That of the scene, to whose folder paths are relative.
+    /// The scene file, to whose folder paths are relative.
     file: PathBuf,
-    /// Its place in the list of bodies.
+    /// Its index in the list of bodies.
     number: usize,
-    /// What its file and its motion are taken by; the others are at their defaults.
+    /// What its file and its motion are read with; other settings are at their defaults.
     settings: BodySettings,
     frame_rate: f64,
 }
 
 impl BodyInputs {
     pub fn of(scene: &Scene, number: usize) -> Self {
-        // How it is felt and seen is asked of the scene.
+        // Contact and look are those of the scene.
         let BodySettings { solid, margin, friction, static_friction, shown, colour, .. } = BodySettings::default();
         let settings = scene.bodies[number].clone();
         let settings = BodySettings { solid, margin, friction, static_friction, shown, colour, ..settings };
@@ -78,7 +78,7 @@ impl Stage for BuiltBody {
 }
 
 impl BuiltBody {
-    /// It as what hair feels if it is solid, as the scene's settings have it.
+    /// The body for contact, if it is solid, with the scene's settings.
     pub(super) fn felt(&self, settings: &BodySettings, frames: u32, at: At<'_>) -> Result<Option<Body>> {
         let name = format!("body[{}]", self.inputs.number);
         let long_enough = if settings.motion.is_some() { self.way.check_length(&name, frames) } else { Ok(()) };

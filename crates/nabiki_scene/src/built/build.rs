@@ -1,4 +1,4 @@
-//! The way from a scene to all that it names, stage by stage.
+//! Builds a scene stage by stage.
 
 use std::sync::Arc;
 
@@ -16,9 +16,9 @@ use super::{BuiltScene, Forces, Shown};
 use crate::error::Result;
 use crate::scene::{FieldBound, FormChoice, Scene};
 
-/// Builds a scene, or one `shard` of it. Stages of scenes that are `known` are kept where they would come out the same, so that
-/// files are not read again. `goes_on`, told how much of the hair is grown, is asked whether it is still wanted: between any two
-/// files, and while roots are chosen and hair grows.
+/// Builds a scene, or one `shard` of it. Reuses stages of `known` scenes that would come out the same, so that files
+/// are not read again. Calls `goes_on` with the share of the hair that is grown, between files and while roots are
+/// chosen and hair grows.
 pub(super) fn build(
     scene: Scene,
     shown: Shown,
@@ -33,7 +33,7 @@ pub(super) fn build(
     build_about(model, scene, Wanted { shown, shard }, known, goes_on).map_err(|refused| refused.blamed_on(size))
 }
 
-/// The same about a head that is loaded.
+/// The same for a loaded head.
 fn build_about(
     model: Arc<Model>,
     scene: Scene,
@@ -50,7 +50,7 @@ fn build_about(
     let inputs = GroomInputs::of(&scene, &model, dynamics.polar_axis, wanted, known_grooms(), at)?;
     let mut groom = Groom::of(inputs, known_grooms(), at)?;
     if groom.imported.is_none() {
-        // As it is drawn, so that it goes out as it looks.
+        // As drawn, so that exports show it the same way.
         let look = &scene.picture.hair;
         let look = (Some(look.width), Some(colour::of_mass(look)));
         let worn = &groom.hair.attributes.constant;
@@ -73,14 +73,14 @@ fn build_about(
     Ok(BuiltScene { scene, model, way, groom, forces, dynamics, bodies, of_speed })
 }
 
-/// What each of the scene's fields can reach, and last `all` of them together.
+/// The bound of each field of the scene, and last that of `all` together.
 pub(super) fn field_bounds(scene: &Scene) -> Result<Vec<FieldBound>> {
     let with_all = |Forces { field, bounds, .. }: &Forces| {
         let all = FieldBound { name: "all".to_owned(), at_most: field.strongest() };
         bounds.iter().cloned().chain([all]).collect()
     };
     if scene.field.force.iter().any(|force| force.speed.is_some()) {
-        // How strong a wind of some speed is depends on how long the hair is.
+        // The strength of a wind given by speed depends on the length of the hair.
         return Ok(with_all(&scene.clone().build(Shown::AtMost(1))?.forces));
     }
     let at = At::new(scene, &|_| true);

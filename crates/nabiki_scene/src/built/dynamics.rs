@@ -1,4 +1,4 @@
-//! How the hair of a scene answers a force; in the free form, among what.
+//! The settings of the motion of a scene's hair, and in the free form its surroundings.
 
 use std::sync::Arc;
 
@@ -13,10 +13,10 @@ use super::stage::{At, Stage};
 use crate::error::Result;
 use crate::scene::{FormChoice, MeanLengths, Scene};
 
-/// Strands that stand for the whole where one number is wanted of it.
+/// Strands that represent the whole hair where one number is needed.
 const FEW: usize = 256;
 
-/// How many of the first strands of the whole are needed, whichever are shown.
+/// Number of first strands of the whole that are needed, whichever are shown.
 pub(super) fn first_wanted(scene: &Scene) -> usize {
     match scene.form {
         FormChoice::Paper => 0,
@@ -24,7 +24,7 @@ pub(super) fn first_wanted(scene: &Scene) -> usize {
     }
 }
 
-/// The paper's form, about a head that has this pose at rest.
+/// The paper's form, for a head with this pose at rest.
 pub(super) fn dynamics(scene: &Scene, model: &Model, rest_pose: Pose, at: At<'_>) -> Result<Dynamics> {
     let dynamics = Dynamics {
         motion: scene.motion.clone(),
@@ -38,7 +38,7 @@ pub(super) fn dynamics(scene: &Scene, model: &Model, rest_pose: Pose, at: At<'_>
     Ok(Dynamics { polar_axis: rest_pose.up_in_head(), ..dynamics })
 }
 
-/// Clumps of hair that is grown are locks, unless another width is asked for.
+/// The clumps of grown hair are its locks, unless the scene sets another width.
 fn locks(scene: &Scene) -> Locks {
     let clumps =
         scene.hair.grown().map_or_else(Locks::default, |hair| Locks { size: hair.style.clumps.size, seed: hair.seed });
@@ -46,7 +46,7 @@ fn locks(scene: &Scene) -> Locks {
     Locks { size: size.unwrap_or(clumps.size), ..clumps }
 }
 
-/// How long the hair is in the mean. `first`: strands of the whole.
+/// Mean length of the hair. `first`: strands of the whole.
 pub(super) fn mean_lengths(first: &Strands) -> MeanLengths {
     let all: f64 = first.lengths().take(FEW).map(f64::from).sum();
     let segments: usize = first.iter().take(FEW).map(|strand| strand.len() - 1).sum();
@@ -54,8 +54,8 @@ pub(super) fn mean_lengths(first: &Strands) -> MeanLengths {
     MeanLengths { strand, segment }
 }
 
-/// Gives `dynamics` the free form with these settings, among all that the scene has. `first`: strands of the whole, as many as are wanted or as there are. Returns the
-/// scene's bodies, of which those that are `known` are kept.
+/// Sets the free form with these settings and the scene's surroundings in `dynamics`. `first`: strands of the whole, as
+/// many as needed or available. Returns the scene's bodies; `known` ones are reused.
 #[expect(clippy::too_many_arguments, reason = "all that surrounds the hair")]
 pub(super) fn set_free<'a>(
     dynamics: &mut Dynamics,
@@ -69,7 +69,7 @@ pub(super) fn set_free<'a>(
 ) -> Result<Vec<Arc<BuiltBody>>> {
     let (mut felt, mut bodies) = (vec![model.body(scene.contact)], Vec::new());
     for (i, settings) in scene.bodies.iter().enumerate() {
-        // All hair is grown by now.
+        // All hair is grown at this point.
         at.still_wanted(1.0)?;
         let body = BuiltBody::of(BodyInputs::of(scene, i), known.clone(), at)?;
         felt.extend(body.felt(settings, scene.motion.frames, at)?);

@@ -23,7 +23,7 @@ pub struct Forces {
     pub bounds: Vec<FieldBound>,
 }
 
-/// What fields are made from.
+/// The inputs of the fields.
 #[derive(Debug, PartialEq)]
 pub(crate) struct ForcesInputs {
     settings: FieldSettings,
@@ -33,7 +33,7 @@ pub(crate) struct ForcesInputs {
 }
 
 impl ForcesInputs {
-    /// Those about a head on its way, with the intervals of `[[force]]` by their strength.
+    /// The fields around a moving head, with `[[force]]` converted to strengths.
     pub fn of(scene: &Scene, model: &Model, way: &Way, intervals: Vec<Keyframe>) -> Self {
         let place = FieldPlace {
             ellipsoid: model.head.ellipsoid,

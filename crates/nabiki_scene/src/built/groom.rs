@@ -39,7 +39,7 @@ pub struct Groom {
     pub imported: Option<Imported>,
     /// Index of each strand among all strands of the scene.
     pub ids: Vec<u32>,
-    /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form asks of.
+    /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form needs.
     pub(super) first: Strands,
 }
 
@@ -50,16 +50,16 @@ pub struct ShardOf {
     pub shard: Shard,
     /// Number of requested strands.
     pub strands: usize,
-    /// All strands of an imported groom; nothing of one that is grown.
+    /// All strands of an imported groom; empty for grown hair.
     pub(super) groom: StrandSum,
 }
 
-/// What hair at rest is made from.
+/// The inputs of hair at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct GroomInputs {
     model: Arc<Model>,
     source: Source,
-    /// Segments within so many degrees of an axis (head space) are laid on it; `None` where none is.
+    /// Segments within this many degrees of an axis (head space) are aligned with it; `None` for none.
     straight: Option<(f32, Vec3)>,
     /// How many of the first strands are wanted.
     first: usize,
@@ -76,12 +76,12 @@ enum Source {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wanted {
     pub shown: Shown,
-    /// One run of these alone.
+    /// Only one run of these.
     pub shard: Option<Shard>,
 }
 
 impl Wanted {
-    /// How many strands of `of_scene` are shown, and which run of these is wanted.
+    /// The number of strands shown of `of_scene`, and the run of these that is wanted.
     fn of(self, of_scene: usize, grown: bool) -> Result<(usize, Range<usize>)> {
         let count = self.shown.of(of_scene, grown)?;
         let Some(shard) = self.shard else { return Ok((count, 0..count)) };
@@ -94,7 +94,7 @@ impl Wanted {
 }
 
 impl GroomInputs {
-    /// Those of a scene about its head, whose polar axis is given. Roots are those that are `known`, where they are the same.
+    /// The hair of a scene on its head, with the given polar axis. Reuses `known` roots if they are the same.
     pub fn of<'a>(
         scene: &Scene,
         model: &Arc<Model>,
@@ -124,7 +124,7 @@ impl Stage for Groom {
     type Inputs = GroomInputs;
 
     fn is_of(&self, inputs: &GroomInputs) -> bool {
-        // How many are shown may be said in several ways, and of how many is known by now where a file has them.
+        // The number of strands can be set in several ways; the number in a file is known by now.
         let shown = |of: &GroomInputs| of.wanted.shown.of(self.of_scene, true).ok();
         let wanted = Wanted { shown: self.inputs.wanted.shown, ..inputs.wanted };
         shown(inputs) == shown(&self.inputs) && GroomInputs { wanted, ..inputs.clone() } == self.inputs
@@ -147,7 +147,7 @@ impl Stage for Groom {
 }
 
 impl Groom {
-    /// Where it grows; `None` for hair of a file.
+    /// Its roots; `None` for hair from a file.
     pub(super) fn roots(&self) -> Option<&Arc<Roots>> {
         match &self.inputs.source {
             Source::Grown { roots, .. } => Some(roots),
@@ -156,7 +156,7 @@ impl Groom {
     }
 }
 
-/// Refuses what takes more memory than there is.
+/// Refuses what needs more memory than there is.
 fn check_memory(at: At<'_>, key: &str, value: impl Display, needed: u64, what_for: &str, way_out: &str) -> Result<()> {
     match memory::short_of(needed) {
         None => Ok(()),

@@ -22,8 +22,8 @@ impl BuiltScene {
         Ok(SceneId::of(self.settings_identity()?, self.strand_sum()))
     }
 
-    /// What a cache of one shard says of the whole; `None` where all strands are built. `command`: what makes it, without
-    /// the shard and the file.
+    /// What a cache of one shard records of the whole; `None` if all strands are built. `command`: the command that
+    /// makes it, without shard and file.
     ///
     /// # Errors
     /// As [`identity`](Self::identity).
@@ -40,7 +40,7 @@ impl BuiltScene {
         StrandSum::of(self.strands(), places, self.dynamics.disturbance.as_ref().map(|_| self.groom.ids.as_slice()))
     }
 
-    /// What the strands grow from, or the strands by which the whole of an imported groom is known.
+    /// What the strands grow from, or the strands that identify an imported groom.
     fn groom_identity(&self) -> Result<SceneId> {
         let mut digest = Digest::new();
         match &self.scene.hair.source {
@@ -54,7 +54,7 @@ impl BuiltScene {
         Ok(digest.finish())
     }
 
-    /// What moves the strands, whichever they are.
+    /// Everything that moves the strands.
     fn settings_identity(&self) -> Result<SceneId> {
         if !self.scene.field.own.is_empty() {
             return Err(Error::refused(
@@ -63,7 +63,7 @@ impl BuiltScene {
             ));
         }
         let mut digest = Digest::new();
-        // The rate counts where it says which poses the head has, which are taken in below.
+        // The rate matters only for the poses of the head, which are hashed below.
         let motion = Motion { frames: 1, frame_rate: 24.0, ..self.dynamics.motion.clone() };
         digest.settings("motion", &motion)?;
         digest.settings("segment_length", &[self.dynamics.segment_length, self.dynamics.shell])?;
@@ -74,7 +74,7 @@ impl BuiltScene {
         if !self.scene.field.is_the_papers() {
             let force = force.iter().copied().map(ForceSettings::from).collect();
             digest.settings("fields", &FieldSettings { force, ..self.scene.field.clone() })?;
-            // Gusts and the head's velocity are those of seconds.
+            // Gusts and the head's velocity are per second.
             digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
         }
         if let Some(disturbance) = &self.dynamics.disturbance {
@@ -89,10 +89,11 @@ impl BuiltScene {
         Ok(digest.finish())
     }
 
-    /// What the free form takes besides. A body is known by the samples of its distance, a crowd by its carriers.
+    /// The additional inputs of the free form. A body is identified by its distance samples, neighbours by their
+    /// carriers.
     fn add_free(&self, digest: &mut Digest, free: &FreeMotion) -> Result<()> {
         digest.settings("free", &free.form)?;
-        // Accelerations are felt by the second.
+        // Accelerations are per second.
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
         for body in &free.bodies {
             digest.settings("contact", &body.contact)?;

@@ -27,16 +27,16 @@ pub struct Model {
     pub placement: Placement,
     /// The results of the import; `None` for the built-in head.
     pub report: Option<MeshReport>,
-    /// What its file says of its own space.
+    /// Unit and axes that its file declares.
     pub(crate) declared: DeclaredSpace,
-    /// What hair does not enter, once that is asked for.
+    /// The head as a body, once it is needed.
     body: OnceLock<Body>,
 }
 
-/// What a head is made from.
+/// The inputs of a head.
 #[derive(Debug, PartialEq)]
 pub(crate) struct ModelInputs {
-    /// That of the scene, to whose folder paths are relative.
+    /// The scene file, to whose folder paths are relative.
     pub file: PathBuf,
     pub source: HeadSource,
     pub ellipsoid: EllipsoidChoice,
@@ -64,7 +64,7 @@ impl Model {
         }
     }
 
-    /// Whether it is no person's head by its size.
+    /// Whether its size is not that of a person's head.
     pub(crate) fn of_size(&self) -> Option<Advice> {
         let Self { inputs, placement, declared, .. } = self;
         let ellipsoid = &self.head.ellipsoid;
@@ -90,7 +90,7 @@ impl Model {
         Some(Advice { seen, fixes: vec![Fix { key: "head.unit", value }] })
     }
 
-    /// It as what hair does not enter.
+    /// The head as a body.
     pub(super) fn body(&self, contact: Contact) -> Body {
         let mut body = self.body.get_or_init(|| Body::head(&self.head, contact)).clone();
         body.contact = contact;

@@ -1,5 +1,5 @@
-//! Stages of a scene: the parts that it is built of, each made from its inputs alone, so that the next scene that has these
-//! alike has the very same part.
+//! Stages of a scene: its parts, each built only from its inputs, so that the next scene with the same inputs shares
+//! the part.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -10,16 +10,15 @@ use nabiki::SettingError;
 use crate::error::{Error, Result};
 use crate::scene::{Problem, Scene, resolved};
 
-/// Asked again and again, by any thread, whether to go on; told how much is done, 0..1.
+/// Called regularly, by any thread, with the share done, 0..1; returns whether to go on.
 pub(super) type GoesOn<'a> = &'a (dyn Fn(f32) -> bool + Sync);
 
-/// A part of a scene. What decides it is stated once, in its inputs: it is made from nothing else, and kept where they are
-/// the same.
+/// A part of a scene. It depends only on its inputs, and is kept while these do not change.
 pub(super) trait Stage: Sized {
-    /// All that decides what it is. A file counts as it was when it was read.
+    /// Everything that determines it. A file counts as it was when it was read.
     type Inputs;
 
-    /// Whether these would make it anew as it is.
+    /// Whether these inputs would build it again as it is.
     fn is_of(&self, inputs: &Self::Inputs) -> bool;
 
     /// Makes it.
@@ -28,7 +27,7 @@ pub(super) trait Stage: Sized {
     /// What is wrong with a setting or a file; [`Error::Cancelled`] where it is wanted no more.
     fn make(inputs: Self::Inputs, at: At<'_>) -> Result<Self>;
 
-    /// The first of those that are known which is of these inputs, or a new one.
+    /// The first of the known ones with these inputs, or a new one.
     ///
     /// # Errors
     /// As [`make`](Self::make).
@@ -43,7 +42,7 @@ pub(super) trait Stage: Sized {
     }
 }
 
-/// What a stage sees of the scene besides its inputs: how what is wrong is said, and whether it is still wanted.
+/// What a stage sees of the scene besides its inputs: how to report errors, and whether it is still wanted.
 #[derive(Clone, Copy)]
 pub(super) struct At<'a> {
     scene: &'a Scene,
@@ -55,18 +54,18 @@ impl<'a> At<'a> {
         Self { scene, goes_on }
     }
 
-    /// A setting that is refused.
+    /// The error for a refused setting.
     pub fn refusal(self, refused: SettingError) -> Error {
         self.scene.refusal(refused).into()
     }
 
-    /// Gives up what is wanted no more, of which so much is grown.
+    /// Cancels if the result is no longer wanted; `part` is the share that is done.
     pub fn still_wanted(self, part: f32) -> Result<()> {
         if (self.goes_on)(part) { Ok(()) } else { Err(Error::Cancelled) }
     }
 
-    /// The file that the scene, which is in the file `scene`, names under `key`; that it is not there is said with the
-    /// scene's line.
+    /// The file that the scene in the file `scene` names under `key`. The error about a missing file has the scene's
+    /// line.
     pub fn there(self, scene: &Path, key: &str, file: &Path) -> Result<PathBuf> {
         let path = resolved(scene, file);
         let value = format!("\"{}\"", file.display());

@@ -20,25 +20,25 @@ pub struct Way {
     pub poses: Arc<[Pose]>,
     /// One line about how its motion was read and converted.
     pub report: Option<String>,
-    /// Number of the first frame on the time line of its file, where that has one.
+    /// Number of its first frame on the timeline of its file, if that has one.
     pub(super) begins: Option<i32>,
 }
 
-/// What a way is read from.
+/// The inputs of a motion.
 #[derive(Debug, PartialEq)]
 pub(super) struct WayInputs {
-    /// That of the scene, to whose folder paths are relative.
+    /// The scene file, to whose folder paths are relative.
     pub file: PathBuf,
     pub source: MotionSource,
-    /// The file of the mesh that is moved, and how it lies in the mesh's space.
+    /// The file of the moved mesh, and its placement.
     pub mesh: Option<PathBuf>,
     pub placement: Placement,
-    /// Frames a second.
+    /// Frames per second.
     pub frame_rate: f64,
 }
 
 impl WayInputs {
-    /// Those of the head's way; `None` for one that stands still.
+    /// Those of the head's motion; `None` for a head that does not move.
     pub fn of(scene: &Scene, model: &Model) -> Option<Self> {
         scene.head.motion.as_ref().map(|source| Self {
             file: scene.file().to_owned(),
@@ -49,8 +49,8 @@ impl WayInputs {
         })
     }
 
-    /// The motion that the scene names under `key`. Out of the mesh's own file it faces and is measured as the mesh is, and
-    /// what binds it there is where its mesh stands.
+    /// The motion that the scene names under `key`. A motion in the mesh's own file has the mesh's axes and unit by
+    /// default, and is bound where the mesh is.
     pub fn read(&self, key: &str, at: At<'_>) -> Result<HeadMotion> {
         let there = |part: &str, file: &Path| at.there(&self.file, &format!("{key}.{part}"), file);
         let source = MotionSource {
@@ -69,7 +69,7 @@ impl WayInputs {
     }
 }
 
-/// Whether files of this kind hold meshes and what moves them in one space.
+/// Whether files of this kind hold meshes and their motion in one space.
 pub(crate) fn holds_scenes(file: &Path) -> bool {
     exchange::is_usd(file) || exchange::is_alembic(file) || mesh::is_gltf(file)
 }
@@ -97,7 +97,7 @@ impl Way {
             return Ok(());
         }
         let remedy = format!(
-            "head.motion ends at frame {} and motion.frames = {frames}: make motion.frames smaller, or the file longer",
+            "head.motion ends at frame {} and motion.frames = {frames}: lower motion.frames, or give a longer file",
             given.saturating_sub(1)
         );
         Err(nabiki_io::Error::new(remedy).in_file(scene.file()).into())

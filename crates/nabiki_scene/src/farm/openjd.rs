@@ -31,7 +31,7 @@ impl Plan {
     /// Words that the format would take for its own.
     pub fn template(&self) -> Result<String> {
         let mut out = String::new();
-        // A label, in which the format has no control characters.
+        // A label without control characters, which the format does not allow.
         let name: String = OneLine(format!("Nabiki {}", self.name)).to_string().chars().take(LONGEST_NAME).collect();
         let scene = default_path(&self.scene, &self.folder);
         let results = default_path(&self.results, &self.folder);
@@ -92,7 +92,7 @@ impl Plan {
         }
     }
 
-    /// One end of each run, as a range of the format: those but the last are evenly apart.
+    /// One end of each run, as a range of the format: all but the last are evenly spaced.
     fn ends(&self, end: impl Fn(&std::ops::RangeInclusive<u32>) -> u32) -> String {
         let ends: Vec<u32> = self.runs().map(|run| end(&run)).collect();
         match ends.as_slice() {
@@ -104,7 +104,7 @@ impl Plan {
     }
 }
 
-/// Why the format cannot hold this in the words of a command.
+/// Why the format cannot store this in a command.
 fn not_held(text: &str) -> Option<&'static str> {
     if text.contains("{{") || text.contains("}}") {
         Some("contains {{ or }}, which Open Job Description reads as a parameter")
@@ -115,7 +115,7 @@ fn not_held(text: &str) -> Option<&'static str> {
     }
 }
 
-/// The same `KEY=VALUE`, with spaces between braces and for tabs, where TOML takes it for the same.
+/// The same `KEY=VALUE` with spaces between braces and for tabs, if it means the same in TOML.
 fn spaced(set: &str) -> String {
     let parsed = |set: &str| set.parse::<toml::Table>().ok();
     let mut other = set.replace('\t', " ");
@@ -133,7 +133,7 @@ fn about_of(parameter: &str) -> &'static str {
     }
 }
 
-/// A default of a path parameter: from the template's folder and not out of it, as the format wants, or none.
+/// A default of a path parameter: relative to the template's folder and inside it, as the format requires, or none.
 fn default_path(path: &Path, folder: &Path) -> Option<String> {
     let below = |path: &Path, folder: &Path| {
         let inside = path.strip_prefix(folder).ok()?;
@@ -141,19 +141,19 @@ fn default_path(path: &Path, folder: &Path) -> Option<String> {
         let inside = inside.to_str().filter(|inside| stays && !inside.is_empty())?;
         (inside.chars().count() <= LONGEST_DEFAULT).then(|| inside.to_owned())
     };
-    // What `..` leads to behind a link the disk knows alone. The file itself keeps its name, be it a link: those that it names
-    // are beside that.
+    // Only the disk knows where `..` leads behind a link. The file itself keeps its name even if it is a link: the
+    // files that it names are beside that.
     let real = || -> Option<PathBuf> { Some(fs::canonicalize(folder_of(path)).ok()?.join(path.file_name()?)) };
     below(path, folder).or_else(|| below(&real()?, &fs::canonicalize(folder).ok()?))
 }
 
-/// A double-quoted scalar of YAML.
+/// A double-quoted scalar in YAML.
 fn text(text: &str) -> String {
     let mut out = String::from('"');
     for c in text.chars() {
         match c {
             '"' | '\\' => out.extend(['\\', c]),
-            // Of these YAML folds some into spaces, and takes others nowhere.
+            // YAML folds some of these into spaces, and does not allow others.
             c if is_unsafe(c) || matches!(c, '\u{feff}' | '\u{fffe}' | '\u{ffff}') => {
                 let _ = write!(out, "\\u{:04x}", u32::from(c));
             }

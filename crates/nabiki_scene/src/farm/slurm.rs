@@ -1,4 +1,4 @@
-//! The job as a script for Slurm, which submits itself: a step is an array of tasks, which waits for the step before.
+//! The job as a script for Slurm that submits itself: each step is an array of tasks that waits for the step before.
 
 use std::fmt::Write;
 
@@ -18,7 +18,8 @@ const RUN: &str = "    from=$((SLURM_ARRAY_TASK_ID * frames_a_task))
     if ((through > last)); then through=$last; fi
 ";
 
-/// The beginning of what submits all steps; `submit STEP BEFORE OPTIONS...` prints the number of the step's job.
+/// The beginning of the part that submits all steps; `submit STEP BEFORE OPTIONS...` prints the number of the step's
+/// job.
 const SUBMIT: &str = "*)
     mkdir -p \"$results/logs\"
     submit() {
@@ -84,7 +85,7 @@ case \"${{1:-}}\" in
 fn word(word: &Word) -> String {
     match word {
         Word::Plain(word) => quoted(word),
-        // What is filled in here holds names of variables and what needs no quotes.
+        // Only names of variables and text without need of quotes are filled in here.
         Word::Filled(word) => format!("\"{word}\""),
     }
 }

@@ -122,7 +122,7 @@ impl SceneInfo {
         let head = scene.load_head();
         let by_speed = scene.field.force.iter().any(|force| force.speed.is_some());
         let bounds = if scene.field.is_the_papers() { Ok(Vec::new()) } else { scene.field_bounds() };
-        // What a unit of the world comes to, and how many steps a frame takes, depends on how long the hair is.
+        // Converting physical units, and the steps per frame, needs the length of the hair.
         let built = (scene.form == FormChoice::Free).then(|| scene.clone().build(Shown::AtMost(1)).ok()).flatten();
         let free = FreeInfo::of(scene, built.as_ref());
         Self {
@@ -284,8 +284,8 @@ fn region_in_words(region: &Region) -> String {
     format!("{name}roots within {inner} to {outer} cm of {place}: {told}")
 }
 
-/// A setting of `[free]` as it is given, and what that comes to where it is given in a unit of the world:
-/// `stiffness 9 cm to 4.5 cm (K = 250,000 to 31,000)`.
+/// A setting of `[free]` as given, and its value if it is in a physical unit: `stiffness 9 cm to 4.5 cm (K = 250,000 to
+/// 31,000)`.
 fn amounts<M: Measure>(key: &str, given: &Profile<Amount<M>>, numbers: Option<Vec<f32>>) -> String {
     let setting = FreeSettings::TABLE.setting(key);
     let one = |amount: &Amount<M>| match amount {
@@ -304,7 +304,7 @@ fn amounts<M: Measure>(key: &str, given: &Profile<Amount<M>>, numbers: Option<Ve
     }
 }
 
-/// Numbers of a setting of `[free]`, by its symbol and in its own unit: `K = 250,000 to 31,000`.
+/// Numbers of a setting of `[free]`, with its symbol and in its own unit: `K = 250,000 to 31,000`.
 fn come_to(setting: &Setting, numbers: &[f32]) -> String {
     let symbol = match setting.key {
         "stiffness" => "K = ",
@@ -333,12 +333,12 @@ impl BuiltScene {
     }
 }
 
-/// Whether any of the numbers is given in a unit of the world.
+/// Whether any of the numbers is in a physical unit.
 fn is_of_world<M: Measure>(given: &Profile<Amount<M>>) -> bool {
     given.values().iter().any(|amount| amount.quantity().is_some())
 }
 
-/// A number with three digits that count, and commas between its thousands.
+/// A number with three significant digits, and commas between its thousands.
 fn grouped(number: f32) -> String {
     let size = number.abs();
     if size < 1000.0 || !size.is_finite() {
@@ -356,7 +356,7 @@ fn grouped(number: f32) -> String {
     }
 }
 
-/// A file as the scene names it, and that it is missing if it is.
+/// A file as named in the scene, with a note if it is missing.
 fn named(scene: &Scene, file: &Path) -> String {
     let missing = if scene.resolve(file).exists() { "" } else { " (missing)" };
     format!("{}{missing}", file.display())
@@ -368,7 +368,7 @@ fn motion_in_words(scene: &Scene, motion: &MotionSource) -> String {
     named(scene, &motion.file) + &skeleton.unwrap_or_default()
 }
 
-/// A body: its file, and how it goes and is felt.
+/// A body: its file, motion and contact.
 fn body_in_words(scene: &Scene, body: &BodySettings) -> String {
     let way = match &body.motion {
         _ if body.with_head => "moves with the head".to_owned(),
@@ -384,7 +384,7 @@ fn body_in_words(scene: &Scene, body: &BodySettings) -> String {
     format!("{}, {way}, {felt}{seen}", named(scene, &body.mesh))
 }
 
-/// The fields beside `[[force]]`, each by its table, in the words of the schema.
+/// The fields other than `[[force]]`, each by its table, in the words of the schema.
 fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
     let FieldSettings { force: _, wind: _, gust, body_wind, flow, turbulence, point, vortex, fan, own } = field;
     fn one<T: Settings>(name: &str, table: Option<&T>) -> Option<(String, String)> {
@@ -404,14 +404,14 @@ fn in_words(field: &FieldSettings) -> Vec<(String, String)> {
     winds.into_iter().flatten().chain(local).chain(own).collect()
 }
 
-/// The settings of a table by the names that panels give them: `strength 30, swirl size 10 cm`.
+/// The settings of a table by their labels: `strength 30, swirl size 10 cm`.
 fn said(table: &Table, values: &Datum) -> String {
     let Datum::Table(values) = values else { return String::new() };
     let all = table.settings.iter().zip(values).filter_map(|(setting, (_, value))| one_said(setting, value));
     all.collect::<Vec<_>>().join(", ")
 }
 
-/// A setting of a table of the schema by its name there, with its unit.
+/// A setting of a table with its label from the schema, and its unit.
 fn labelled<T: Settings>(key: &str, value: impl Value) -> String {
     let setting = T::TABLE.settings.iter().find(|setting| setting.key == key);
     setting.and_then(|setting| one_said(setting, &value.datum())).unwrap_or_default()

@@ -1,5 +1,5 @@
-//! Heads and bodies that stand in their file where it has them in the first frame, and that their motion, out of the same file,
-//! carries as if they stood at its origin, or as if they faced elsewhere.
+//! Heads and bodies that are where their file has them in the first frame, and whose motion, from the same file, moves
+//! them as if they were at its origin or faced another way.
 
 use std::path::Path;
 
@@ -14,24 +14,24 @@ use super::{Advice, Fix};
 use crate::built::{BuiltScene, holds_scenes};
 use crate::scene::HeadSource;
 
-/// What is nearer than this (cm) and turned by less than this (rad) is in its place.
+/// A mesh nearer than this (cm) and turned by less than this (rad) is in its place.
 const NEAR: f32 = 0.1;
 const TURNED: f32 = 0.01;
 
-/// A mesh and what moves it.
+/// A mesh and its motion.
 struct Moved<'a> {
-    /// The table of its settings, and the key of what mends it, if it has one name.
+    /// The table of its settings, and the key that fixes it, if one does.
     table: String,
     key: Option<&'static str>,
     mesh: &'a Path,
     groups: &'a [String],
     motion: &'a MotionSource,
-    /// How its file is placed, and where it is in frame 0.
+    /// The placement of its file, and its pose in frame 0.
     placement: Placement,
     first: Pose,
 }
 
-/// What is carried twice, the head first.
+/// What is moved twice, the head first.
 pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     let scene = &built.scene;
     let head = match (&scene.head.source, &scene.head.motion) {
@@ -61,7 +61,7 @@ pub(super) fn carried_twice(built: &BuiltScene) -> impl Iterator<Item = Advice> 
     head.into_iter().chain(bodies).filter_map(|moved| twice(built, &moved).or_else(|| askew(built, &moved)))
 }
 
-/// A mesh that is bound where its file has it, and moved as if that file's world faced elsewhere.
+/// A mesh that is bound where its file has it, and moved as if the world of that file faced another way.
 fn askew(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     let Moved { table, mesh, motion, placement, .. } = moved;
     let facing = motion.facing.filter(|&facing| facing != placement.facing)?;

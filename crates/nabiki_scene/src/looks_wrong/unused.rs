@@ -1,4 +1,4 @@
-//! Settings that change nothing beside the others: hair does not feel them, no picture shows them, or another took their place.
+//! Settings that change nothing: hair does not feel them, no picture shows them, or another replaces them.
 
 use glam::Vec3;
 use nabiki::body::Contact;
@@ -10,7 +10,7 @@ use nabiki_render::settings::{Antialiasing, Camera, HairLook, HeadLook, Picture,
 use super::{Advice, Fix};
 use crate::scene::{FieldSettings, FormChoice, FreeSettings, Scene};
 
-/// What is given and changes nothing.
+/// Settings that are given and change nothing.
 pub(crate) fn unused(scene: &Scene) -> Vec<Advice> {
     let said = scene.replaced().chain([uncut(scene), too_late(scene)].into_iter().flatten()).chain(silent(scene));
     let said = said.map(Advice::new);
@@ -18,18 +18,18 @@ pub(crate) fn unused(scene: &Scene) -> Vec<Advice> {
     moving.chain(of_pictures(scene)).collect()
 }
 
-/// The same of what is seen alone: all that a picture of motion that is made already can show.
+/// The same for what is only seen: all that matters for a picture of existing motion.
 pub(crate) fn of_pictures(scene: &Scene) -> impl Iterator<Item = Advice> {
     true_of(camera(&scene.picture.camera)).chain(true_of(picture(scene)))
 }
 
-/// The lines that are true.
+/// The lines whose condition is true.
 fn true_of(lines: Vec<(bool, &'static str)>) -> impl Iterator<Item = Advice> {
     let of_line = |(changes_nothing, line): (bool, &str)| changes_nothing.then(|| Advice::new(line));
     lines.into_iter().filter_map(of_line)
 }
 
-/// Tables of the free form beside the paper's, which feels none of them.
+/// Tables of the free form, which the paper's form ignores.
 fn unfelt(scene: &Scene) -> Option<Advice> {
     if scene.form == FormChoice::Free {
         return None;
@@ -63,14 +63,14 @@ fn idle(scene: &Scene) -> Vec<Advice> {
     seen
 }
 
-/// Differences of a cut that is not made.
+/// Variation of a cut that is not made.
 fn uncut(scene: &Scene) -> Option<String> {
     let style = &scene.hair.grown()?.style;
     let idle = style.cuts.is_empty() && style.variation.cut != Variation::default().cut;
     idle.then(|| "hair.style.variation.cut changes nothing: there are no hair.style.cuts".to_owned())
 }
 
-/// The last frame; beyond all where an override says it: whoever tries fewer frames than there are knows that some are left out.
+/// The last frame; infinite if an override sets it, because whoever tries fewer frames knows that some are left out.
 fn last_frame(scene: &Scene) -> u32 {
     if scene.is_overridden("motion.frames") { u32::MAX } else { scene.motion.frames.max(1) }
 }
@@ -79,7 +79,7 @@ fn last_frame(scene: &Scene) -> u32 {
 fn too_late(scene: &Scene) -> Option<String> {
     let (force, last) = (&scene.field.force, last_frame(scene));
     let wind = KeyframedField::new(&scene.field.as_given()).ok()?.eased(scene.field.wind.ease);
-    // Behind a new interval that ends with the last frame a solver leaves one frame of what was there before.
+    // After a new interval that ends with the last frame, a solver leaves one frame of the interval that was there.
     let late = |&j: &usize| wind.first_felt(j) > last && force[j].through != last.saturating_add(1);
     let j = (0..force.len()).find(late)?;
     let change = if j + 1 == force.len() { "changes" } else { "and what comes after it change" };
@@ -89,7 +89,7 @@ fn too_late(scene: &Scene) -> Option<String> {
     ))
 }
 
-/// Fields whose envelope lets nothing through.
+/// Fields whose envelope is 0.
 fn silent(scene: &Scene) -> impl Iterator<Item = String> {
     let FieldSettings { turbulence, point, vortex, fan, .. } = &scene.field;
     let named = |kind: &str, i: usize| format!("{kind}[{i}]");
@@ -103,15 +103,15 @@ fn silent(scene: &Scene) -> impl Iterator<Item = String> {
     silent.map(|(name, _)| format!("{name} changes nothing: its envelope is 0 in all frames"))
 }
 
-/// Whether an envelope is 0 in the frames from 1 through `last`. Between keys it is straight, so that the frames at them and
-/// beside them tell.
+/// Whether an envelope is 0 in the frames from 1 through `last`. It is straight between keys, so the frames at and next
+/// to them suffice.
 fn is_silent(keys: &[EnvelopeKey], last: u32) -> bool {
     let beside = |key: &EnvelopeKey| [key.frame.saturating_sub(1), key.frame, key.frame.saturating_add(1)];
     let mut frames = keys.iter().flat_map(beside).chain([1, last]);
     !keys.is_empty() && frames.all(|frame| envelope(keys, frame.clamp(1, last)) == 0.0)
 }
 
-/// Whether each of these lines is true of the field.
+/// Whether each of these lines is true for the field.
 fn field(settings: &FieldSettings) -> Vec<(bool, &'static str)> {
     let still = settings.force.iter().all(|key| key.vector == Vec3::ZERO);
     let no_wind = still && settings.body_wind.is_none();
@@ -126,7 +126,7 @@ fn field(settings: &FieldSettings) -> Vec<(bool, &'static str)> {
     ]
 }
 
-/// The same of the camera.
+/// The same for the camera.
 fn camera(camera: &Camera) -> Vec<(bool, &'static str)> {
     let perspective = camera.projection == Projection::Perspective;
     let framed = if perspective { camera.distance.is_some() } else { camera.height.is_some() };
@@ -151,13 +151,13 @@ fn camera(camera: &Camera) -> Vec<(bool, &'static str)> {
     ]
 }
 
-/// The same of the look.
+/// The same for the look.
 fn picture(scene: &Scene) -> Vec<(bool, &'static str)> {
     let picture = &scene.picture;
     let (hair, head) = (&picture.hair, &picture.head);
     let (usual, skin) = (HairLook::default(), HeadLook::default());
     let papers = hair.shading == Shading::KajiyaKay;
-    // Bodies are lit as the head is.
+    // Bodies are lit like the head.
     let no_skin = !head.visible && !scene.bodies.iter().any(|body| body.shown);
     let unlike = head.sheen != skin.sheen || head.softness != skin.softness;
     vec![

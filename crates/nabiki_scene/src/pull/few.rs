@@ -1,4 +1,4 @@
-//! A few strands that stand for a lock, among the carriers about them.
+//! A few strands that represent a lock, among the carriers around them.
 
 use std::sync::Arc;
 
@@ -7,16 +7,16 @@ use nabiki::Strands;
 use nabiki::dynamics::Form;
 use nabiki::solve::Problem;
 
-/// So many nodes of a lock are looked at, at the most: what their middle does is nearly what that of all does. As many strands are stepped at once.
+/// Most nodes of a lock that are observed: the mean of these moves almost like that of all. As many strands are stepped at once.
 const NODES: usize = 16;
-/// Carriers that at rest come this near to one of these strands are about them (cm), and so many are taken at the least and at the most.
+/// Carriers within this distance of one of these strands at rest are around them (cm), within these limits on their number.
 const ABOUT_CM: f32 = 2.0;
 const LEAST: usize = 16;
 const MOST: usize = 32;
-/// Places along a strand between which it is looked how near two come.
+/// Places along a strand at which the distance of two strands is measured.
 const PLACES: usize = 5;
 
-/// The same problem of a few strands of each wish, among the carriers about them.
+/// The same problem for a few strands of each wish, among the carriers around them.
 pub(super) fn few(problem: &Problem) -> Problem {
     let mut few = problem.clone();
     for wish in &mut few.wishes {
@@ -34,7 +34,7 @@ pub(super) fn few(problem: &Problem) -> Problem {
     few
 }
 
-/// The carriers about some strands of the hair, ascending.
+/// The carriers around some strands of the hair, ascending.
 fn about(carriers: &Strands, hair: &Strands, strands: &[usize]) -> Vec<usize> {
     let places = |strand: &[Vec3]| [0, 1, 2, 3, 4].map(|i| strand[i * (strand.len() - 1) / (PLACES - 1)]);
     let of_lock: Vec<Vec3> = strands.iter().flat_map(|&s| places(hair.strand(s))).collect();
@@ -83,7 +83,7 @@ mod tests {
         for x in 0..100 {
             carriers.push((0..9).map(|k| Vec3::new(0.25 * x as f32, 0.5 * k as f32, 0.0)));
         }
-        // Of one strand at 10 cm, all within 2 cm: 32 to 48 carriers, of which 40 lies in the middle.
+        // For one strand at 10 cm, all within 2 cm: 32 to 48 carriers, 40 in the middle.
         let about_40 = about(&carriers, &carriers, &[40]);
         assert_eq!(about_40, (32..=48).collect::<Vec<_>>());
         let beside = about(&carriers, &carriers, &[0]);

@@ -19,35 +19,35 @@ use super::few::few;
 use super::{Lock, Pulled};
 use crate::BuiltScene;
 
-/// How much a nail counts beside the lock in the hand.
+/// Weight of a nail relative to the lock in the hand.
 const NAIL_WEIGHT: f32 = 2.0;
-/// A step that leaves more than this part of what was left gains nothing.
+/// A step that leaves more than this share of the remaining distance gains nothing.
 const WORTH: f64 = 0.98;
-/// So near to the hand is there (cm).
+/// This near to the hand counts as arrived (cm).
 const THERE_CM: f64 = 0.1;
-/// What has come so near need not be looked for by other ways (cm).
+/// At this distance, no other ways are searched (cm).
 const NEAR_CM: f64 = 0.2;
-/// A change of the wind by 100 counts as much as this distance (cm): a strong wind throws all hair about. With one by so much no gentler is
-/// looked for.
+/// A change of the wind by 100 counts as much as this distance (cm), because a strong wind throws all hair about. At a
+/// wind this gentle, no gentler one is searched.
 const ROUGH_CM: f64 = 0.015;
 const GENTLE: f64 = 250.0;
-/// What the vector of an interval counts that is not the pull's own, if it changes, too (cm).
+/// The cost of a change of another interval's vector (cm).
 const ANOTHER_CM: f64 = 0.05;
-/// What is farther from the hand is told why (cm).
+/// Farther from the hand than this, the reason is given (cm).
 const SHORT_CM: f64 = 0.3;
-/// About how many frames long the interval is that a pull has for its own: the first is what a hand that moves begins with, the others
-/// are tried where that does not arrive.
+/// Approximate lengths in frames of a pull's own interval: a moving hand begins with the first; the others are tried if
+/// that does not arrive.
 const LENGTHS: [u32; 3] = [12, 20, 7];
-/// How often the whole lock judges what was found for a few of its strands, until it looks for itself.
+/// How often the full lock checks what was found for a few of its strands, before it searches itself.
 const TRUSTED: usize = 3;
-/// Judgements of a try at the most.
+/// Most checks per try.
 const ROUNDS: usize = 12;
-/// Steps between two judgements, and of a search that goes its way to its end.
+/// Steps between two checks, and in a complete search.
 const SHORT: usize = 5;
 const LONG: usize = 30;
-/// Few that have left less than this part of what they had left before are still on their way.
+/// A few strands below this share of their earlier remaining distance are still on their way.
 const ON_ITS_WAY: f64 = 0.8;
-/// Starts of a search where none arrives from where it is.
+/// Starts of a search if none arrives from the current one.
 const STARTS: usize = 4;
 
 /// What may change for a pull.
@@ -70,17 +70,17 @@ struct Try {
     solvers: Option<Solvers>,
 }
 
-/// What finds a wind, and what judges it.
+/// The solvers that find a wind, and the one that checks it.
 #[derive(Debug)]
 struct Solvers {
     few: Solver,
-    /// Once the whole hair is where a pull begins.
+    /// Once the whole hair is at the frame where a pull begins.
     whole: Option<Solver>,
-    /// From the middle of the whole lock to that of the few strands of it, in the last motion of both (cm).
+    /// From the middle of the full lock to that of its few strands, in the last motion of both (cm).
     shift: Vec3,
 }
 
-/// Hair in the frame in which pulls begin, once it is worked out.
+/// Hair in the frame in which pulls begin, once it is computed.
 enum Begin {
     Awaited(JoinHandle<Result<Preroll, SettingError>>),
     There(Box<Preroll>),
@@ -91,11 +91,11 @@ type Brake = Arc<dyn Fn() -> bool + Send + Sync>;
 
 /// Follows the mouse.
 pub struct Follower {
-    /// With the wind as it is.
+    /// With the current wind.
     problem: Problem,
-    /// The same of a few strands.
+    /// The same for a few strands.
     of_few: Problem,
-    /// The middle of the lock as it is, and where it should be (head space, cm).
+    /// The middle of the lock, and its goal (head space, cm).
     middle: Vec3,
     goal: Vec3,
     /// No try is felt before the frame after this one.
@@ -103,7 +103,7 @@ pub struct Follower {
     begin: Option<Begin>,
     few_begin: Option<Preroll>,
     tries: Vec<Try>,
-    /// The one that has led nearest.
+    /// The try that has led nearest.
     at: usize,
     brake: Option<Brake>,
 }
@@ -122,7 +122,7 @@ impl Follower {
         wishes.extend(nails.iter().map(|nail| nail.wish(Goal::Stay, NAIL_WEIGHT)));
         let mut problem = built.problem(Vec::new(), wishes);
         problem.prior = Prior { keep: ROUGH_CM as f32, ..Prior::default() };
-        // Two intervals, one after the other, where one does not do; one where there is no frame for two.
+        // Two intervals in sequence, where one is not enough; one if there is no frame for two.
         let of_two = if freedom.another { &LENGTHS[..] } else { &LENGTHS[..1] };
         let two = of_two.iter().filter_map(|&length| two_intervals(&problem.wind, held.frame, length, freedom));
         let mut all: Vec<Try> = two.collect();
@@ -139,7 +139,7 @@ impl Follower {
         }
         let from = tries.iter().map(|of| *of.felt.start()).min().unwrap_or(1).saturating_sub(1);
         let of_few = few(&problem);
-        // The way there is long among neighbours: the first steps are found for a few meanwhile.
+        // With neighbours the preroll takes long: meanwhile the first steps are found for a few strands.
         let whole = Problem { unknowns: Vec::new(), ..problem.clone() };
         let new = move || Preroll::new(&whole, from);
         let begin = Builder::new().name("begin of a pull".to_owned()).spawn(new).ok().map(Begin::Awaited);
@@ -183,7 +183,8 @@ impl Follower {
         let first = self.at;
         let order = std::iter::once(first).chain((0..self.tries.len()).filter(|&i| i != first));
         let mut turns: Vec<(usize, usize)> = order.flat_map(|i| [(1, i), (STARTS, i)]).collect();
-        // First each from where it is; other starts, which take long, only where none of them arrives by a gentle wind.
+        // First each try from its current numbers; other starts, which take long, only if none arrives with a gentle
+        // wind.
         turns.sort_by_key(|&(starts, _)| starts);
         let (mut best, mut nearest) = (f64::INFINITY, f64::INFINITY);
         for (turn, (starts, i)) in turns.into_iter().enumerate() {
@@ -213,7 +214,7 @@ impl Follower {
         Ok(Some(Pulled { ended: true, stop, ..pulled }))
     }
 
-    /// What keeps the hair so far from the hand: what the nearest try finds, or another where that finds its interval too short.
+    /// What keeps the hair from the hand: the reason of the nearest try, or of another one if that finds its interval too short.
     fn stopped_by(&mut self, goal: Vec3, left_cm: f64) -> Result<Stop, SettingError> {
         let at = self.at;
         let others = (0..self.tries.len()).filter(|&i| i != at);
@@ -228,7 +229,7 @@ impl Follower {
         Ok(nearest.expect("a try is the nearest"))
     }
 
-    /// Searches by a try. Whether it came to its end, and was not braked; it has come to the nearest either way.
+    /// Searches by a try. Returns whether it ended without the brake; it is at its nearest motion either way.
     fn search_of(
         &mut self,
         i: usize,
@@ -259,7 +260,7 @@ impl Follower {
             let before = solvers.few.left_cm();
             let came = solvers.few.pursue(&limits, enough);
             let (left, was) = (solvers.few.left_cm(), solvers.shift);
-            // Now all of it must be there, and judge; a hand that has moved on does not wait for it.
+            // Now the full lock must be ready to check; if the hand has moved on, it does not wait.
             let solvers = self.solvers(i, came)?;
             solvers.aim(goal)?;
             solvers.compare();
@@ -276,7 +277,7 @@ impl Follower {
             if left > THERE_CM && left < ON_ITS_WAY * before {
                 continue;
             }
-            // Where the few do not arrive, and do as all do, going on gains nothing.
+            // If the few do not arrive, and agree with the full lock, going on gains nothing.
             if left > THERE_CM && shifted < 0.2 * left || shifted < 0.1 * THERE_CM {
                 break;
             }
@@ -286,14 +287,14 @@ impl Follower {
         if judged < TRUSTED || best.1 <= NEAR_CM {
             return Ok(true);
         }
-        // What a few do says too little here: all of the lock looks for itself.
+        // The few represent the lock too poorly here: the full lock searches itself.
         let limits = Search { iterations: LONG, ..limits };
         let came = self.solvers(i, true)?.search_whole(&limits, enough);
         tell(self);
         Ok(came)
     }
 
-    /// By how much a try has changed the wind, at the most.
+    /// The largest change of the wind by a try.
     fn change(&self, i: usize) -> f64 {
         let Try { felt, solvers: Some(solvers), .. } = &self.tries[i] else { return 0.0 };
         let (wind, frame) = (&self.problem.wind, self.problem.wishes[0].frame);
@@ -301,7 +302,7 @@ impl Follower {
         change(&wind.keyframes, &now, wind.ease, *felt.start()..=frame).into()
     }
 
-    /// How far a try has left the hair from the hand, where what it costs counts, too (cm).
+    /// The remaining distance of a try from the hand, including its cost (cm).
     fn score(&self, i: usize) -> f64 {
         let Try { unknowns, solvers, .. } = &self.tries[i];
         let left = solvers.as_ref().map_or(f64::INFINITY, |solvers| solvers.judge().left_cm());
@@ -309,17 +310,17 @@ impl Follower {
         left.max(NEAR_CM) + ROUGH_CM * self.change(i) / 100.0 + ANOTHER_CM * others as f64
     }
 
-    /// What a try has come to.
+    /// The result of a try.
     fn pulled(&self, i: usize) -> Pulled {
         let Try { interval, felt, solvers, unknowns, .. } = &self.tries[i];
         let judge = solvers.as_ref().expect("a try that has begun").judge();
         let (answer, left_cm) = (judge.answer(), judge.left_of_wish(0));
-        // All frames feel another stiffness.
+        // Another stiffness is felt in all frames.
         let felt = if unknowns.contains(&Unknown::Stiffness) { 1..=u32::MAX } else { felt.clone() };
         Pulled { answer, interval: *interval, felt, goal: self.goal, left_cm, ended: false, stop: None }
     }
 
-    /// The solvers of a try; that of the whole lock, too, if it can begin by now or is waited for.
+    /// The solvers of a try; that of the full lock, too, if it can begin by now or is waited for.
     fn solvers(&mut self, i: usize, wait: bool) -> Result<&mut Solvers, SettingError> {
         let Self { problem, of_few, begin, few_begin, tries, brake, from, middle, .. } = self;
         let Try { keyframes, unknowns, solvers, .. } = &mut tries[i];
@@ -362,7 +363,7 @@ impl Follower {
 }
 
 impl Solvers {
-    /// Where the middle of the whole lock should be (head space, cm).
+    /// The goal of the middle of the full lock (head space, cm).
     fn aim(&mut self, goal: Vec3) -> Result<(), SettingError> {
         if let Some(whole) = &mut self.whole {
             whole.set_goal(0, Goal::MeanAt(goal))?;
@@ -370,12 +371,12 @@ impl Solvers {
         self.few.set_goal(0, Goal::MeanAt(goal + self.shift))
     }
 
-    /// Who knows best how near the lock is.
+    /// The solver that knows best how near the lock is.
     fn judge(&self) -> &Solver {
         self.whole.as_ref().unwrap_or(&self.few)
     }
 
-    /// Takes the whole lock through the motion that was found for a few strands of it.
+    /// Moves the full lock with the wind found for a few strands of it.
     fn compare(&mut self) {
         if let Some(whole) = &mut self.whole
             && whole.set_numbers(self.few.numbers())
@@ -384,7 +385,7 @@ impl Solvers {
         }
     }
 
-    /// The whole lock searches for itself, and the few follow. Whether it came to its end.
+    /// The full lock searches itself, and the few follow. Returns whether it ended without the brake.
     fn search_whole(&mut self, limits: &Search, enough_cm: f64) -> bool {
         let Some(whole) = &mut self.whole else { return true };
         let came = whole.pursue(limits, enough_cm);
@@ -394,7 +395,7 @@ impl Solvers {
         came
     }
 
-    /// Goes to some numbers that one of both has come to before.
+    /// Goes to numbers that one of the two has reached before.
     fn go(&mut self, numbers: &[f64]) {
         if self.few.numbers() != numbers && self.few.set_numbers(numbers) {
             self.compare();
@@ -402,19 +403,19 @@ impl Solvers {
     }
 }
 
-/// The middle of the lock in the motion that a solver has come to (head space, cm).
+/// The middle of the lock in the current motion of a solver (head space, cm).
 fn middle_of(solver: &Solver) -> Vec3 {
     let places = solver.places(0);
     places.iter().sum::<Vec3>() / places.len() as f32
 }
 
-/// A wind with an interval for the pull, whose vector is free.
+/// A wind with an interval for the pull, whose vector may change.
 fn own_interval(wind: &KeyedWind, frame: u32, length: u32, freedom: Freedom) -> Try {
     let Cut { keyframes, interval, felt } = cut_for_pull(&wind.keyframes, wind.ease, frame, length);
     Try { keyframes, unknowns: unknowns(&[interval], freedom), interval, felt, solvers: None }
 }
 
-/// The same with another interval before it, that is free, too; none where there is no frame for it.
+/// The same with another interval before it that may change, too; `None` if there is no frame for it.
 fn two_intervals(wind: &KeyedWind, frame: u32, length: u32, freedom: Freedom) -> Option<Try> {
     let own = cut_for_pull(&wind.keyframes, wind.ease, frame, length);
     let last = own.interval.checked_sub(1).map(|before| own.keyframes[before].through)?;

@@ -1,4 +1,4 @@
-//! `[[body]]`: what hair does not enter besides the head.
+//! `[[body]]`: what hair collides with besides the head.
 
 use std::path::PathBuf;
 
@@ -47,17 +47,17 @@ settings! {
 }
 
 impl BodySettings {
-    /// How it is touched.
+    /// Its contact settings.
     pub fn contact(&self) -> Contact {
         Contact { margin: self.margin, friction: self.friction, static_friction: self.static_friction }
     }
 
-    /// How it is drawn.
+    /// Its look.
     pub fn look(&self) -> BodyLook {
         BodyLook { shown: self.shown, colour: self.colour }
     }
 
-    /// How the file lies in the body's space. `up` and `unit`: what the file itself says.
+    /// The placement of the file in the body's space. `up` and `unit`: what the file itself declares.
     pub fn placement(&self, unit: Option<Unit>, up: Option<Axis>) -> Placement {
         let default = Placement::default();
         Placement {
@@ -68,10 +68,10 @@ impl BodySettings {
         }
     }
 
-    /// Refuses what no body can be loaded from.
+    /// Refuses settings from which no body can be loaded.
     fn can_be_loaded(&self, at: &Place) -> Result<(), SettingError> {
         if self.mesh.as_os_str().is_empty() {
-            return refused(&at.key("mesh"), "nothing", "give the file of its mesh");
+            return refused(&at.key("mesh"), "", "is missing: give the file of its mesh");
         }
         if self.with_head && self.motion.is_some() {
             let remedy = "a body that moves with the head cannot have its own motion: remove one of the two";

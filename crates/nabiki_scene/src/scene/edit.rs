@@ -1,4 +1,4 @@
-//! Changed settings put into the text they came from: only what differs is touched, so that comments and layout stay.
+//! Writes changed settings into the original text: only what differs is changed, so comments and layout stay.
 
 use toml::{Table, Value};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, TableLike};
@@ -6,22 +6,22 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, TableLike}
 /// Longest line for which a new table within a table is written in braces (characters).
 const INLINE: usize = 100;
 
-/// What a scene is without a key: the trees of its defaults.
+/// The meaning of missing keys: the trees of the defaults.
 pub(super) struct Defaults {
-    /// With all left out that may be.
+    /// Without anything optional.
     pub bare: Table,
-    /// With every optional table there, at its own defaults.
+    /// With every optional table, at its own defaults.
     pub full: Table,
 }
 
-/// Puts the difference between `held`, which `document` means now, and `wanted` into `document`.
+/// Writes the difference between `held`, the current meaning of `document`, and `wanted` into `document`.
 pub(super) fn apply(document: &mut DocumentMut, held: &Table, wanted: &Table, defaults: &Defaults) {
     let Defaults { bare, full } = defaults;
     let context = Context { bare: Some(bare), full: Some(full), depth: 0, inline: false };
     edit_table(document.as_table_mut(), held, wanted, &context);
 }
 
-/// What surrounds a table: its defaults, how many tables it stands in, and whether it stands in braces.
+/// The surroundings of a table: its defaults, its depth, and whether it is in braces.
 #[derive(Clone, Copy)]
 struct Context<'a> {
     bare: Option<&'a Table>,
@@ -31,7 +31,7 @@ struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// What surrounds the table at `key` of this one.
+    /// The surroundings of the table at `key` of this one.
     fn below(&self, key: &str, inline: bool) -> Self {
         let table = |of: Option<&'a Table>| of?.get(key)?.as_table();
         let full = table(self.full);
@@ -44,7 +44,7 @@ impl<'a> Context<'a> {
 }
 
 fn edit_table(table: &mut dyn TableLike, held: &Table, wanted: &Table, context: &Context) {
-    // What stands before a closing brace belongs to whichever value comes last.
+    // Text before a closing brace belongs to the last value.
     let closing = if context.inline { set_closing(table, "") } else { None };
     edit_entries(table, held, wanted, context);
     if let Some(closing) = closing {
@@ -52,7 +52,7 @@ fn edit_table(table: &mut dyn TableLike, held: &Table, wanted: &Table, context: 
     }
 }
 
-/// Sets what stands after the last value of a table in braces, and returns what stood there.
+/// Sets the text after the last value of a table in braces, and returns the old one.
 fn set_closing(table: &mut dyn TableLike, space: &str) -> Option<String> {
     let (_, last) = table.iter_mut().last()?;
     let decor = last.as_value_mut()?.decor_mut();
@@ -78,7 +78,7 @@ fn edit_entries(table: &mut dyn TableLike, held: &Table, wanted: &Table, context
     }
 }
 
-/// Edits the table at `key`, made where there is none.
+/// Edits the table at `key`; creates it if it is missing.
 fn edit_below(table: &mut dyn TableLike, key: &str, was: Option<&Value>, wanted: &Table, context: &Context) {
     let none = Table::new();
     let held = was.and_then(Value::as_table).unwrap_or(&none);
@@ -91,7 +91,7 @@ fn edit_below(table: &mut dyn TableLike, key: &str, was: Option<&Value>, wanted:
     table.insert(key, new_table(wanted, &context.below(key, false)));
 }
 
-/// A table that is not in the text yet, without what is at its default.
+/// A table that is new in the text, without values at their defaults.
 fn new_table(wanted: &Table, context: &Context) -> Item {
     let mut inline = InlineTable::new();
     edit_table(&mut inline, &Table::new(), wanted, &Context { inline: true, ..*context });
@@ -102,7 +102,7 @@ fn new_table(wanted: &Table, context: &Context) -> Item {
     }
     let mut own = toml_edit::Table::new();
     edit_table(&mut own, &Table::new(), wanted, context);
-    // A header above nothing but other headers says nothing; alone, it says that the table is there.
+    // A header above only other headers is redundant; alone, it creates the table.
     own.set_implicit(!own.is_empty() && own.iter().all(|(_, item)| item.is_table()));
     Item::Table(own)
 }
@@ -116,7 +116,7 @@ fn edit_value(table: &mut dyn TableLike, key: &str, value: &Value) {
     }
 }
 
-/// `value` as it would be written in the place of `there`: its comment, and the spelling of what is the same.
+/// `value` as written in the place of `there`: keeps its comment, and the spelling of equal parts.
 fn replaced(there: &toml_edit::Value, value: &Value) -> toml_edit::Value {
     let mut new = match (there, value) {
         (toml_edit::Value::Array(there), Value::Array(values)) if there.len() == values.len() => {
@@ -135,7 +135,7 @@ fn replaced(there: &toml_edit::Value, value: &Value) -> toml_edit::Value {
     new
 }
 
-/// Whether a scalar of the text means `value`.
+/// Whether a scalar of the text equals `value`.
 fn means(there: &toml_edit::Value, value: &Value) -> bool {
     match (there, value) {
         (toml_edit::Value::Integer(a), Value::Float(b)) => *a.value() as f64 == *b,
@@ -147,9 +147,9 @@ fn means(there: &toml_edit::Value, value: &Value) -> bool {
     }
 }
 
-/// A number without a point where it needs none, as numbers around it are written.
+/// A number without a decimal point if it needs none, like the numbers around it.
 fn whole(number: f64) -> toml_edit::Value {
-    // Beyond this not every whole number is one of 64 bits with a point.
+    // Beyond this, not every whole number fits in 64 bits with a decimal point.
     const EXACT: f64 = 9_007_199_254_740_992.0;
     if number.fract() == 0.0 && number.abs() < EXACT && !(number == 0.0 && number.is_sign_negative()) {
         (number as i64).into()
@@ -158,7 +158,7 @@ fn whole(number: f64) -> toml_edit::Value {
     }
 }
 
-/// A value that is not in the text yet.
+/// A value that is new in the text.
 fn fresh(value: &Value) -> toml_edit::Value {
     match value {
         Value::String(text) => text.as_str().into(),
@@ -174,18 +174,18 @@ fn fresh(value: &Value) -> toml_edit::Value {
     }
 }
 
-/// The entries of a list of tables; none for a list of anything else, or of nothing.
+/// The entries of a list of tables; none for other lists, or a missing one.
 fn tables(values: &[Value]) -> Option<Vec<&Table>> {
     if values.is_empty() { None } else { values.iter().map(Value::as_table).collect() }
 }
 
-/// Edits a list of tables: what it has in common with the one before, at its beginning and end, stays as it is.
+/// Edits a list of tables: what both lists share at the beginning and end does not change.
 fn edit_list(table: &mut dyn TableLike, key: &str, was: Option<&Value>, wanted: &[Value], context: &Context) {
     let held = was.and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
     let mut entries = match table.get(key) {
         Some(Item::ArrayOfTables(list)) if list.len() == held.len() => Entries::Headers(list.iter().cloned().collect()),
         Some(Item::Value(toml_edit::Value::Array(list))) if list.len() == held.len() => Entries::Braces(list.clone()),
-        // What stood there only by default is written anew, whole.
+        // A value that was only the default is written completely.
         _ => {
             let list = wanted.iter().filter_map(Value::as_table);
             let item = if context.inline {
@@ -267,7 +267,7 @@ impl Entries {
     }
 }
 
-/// A new entry of a list of tables, all of it.
+/// A complete new entry of a list of tables.
 fn header_table(entry: &Table) -> toml_edit::Table {
     entry.iter().map(|(key, value)| (key.as_str(), Item::Value(fresh(value)))).collect()
 }

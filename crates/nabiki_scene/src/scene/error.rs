@@ -53,7 +53,7 @@ pub enum Problem {
     },
     /// A value out of range.
     Range {
-        /// The value.
+        /// The value; empty where there is none, and the remedy then continues the key.
         value: String,
         /// The range, or the way out.
         remedy: String,
@@ -78,7 +78,7 @@ impl SceneError {
     pub fn value(&self) -> Option<&str> {
         match &*self.problem {
             Problem::Kind { found: value, .. } | Problem::Range { value, .. } | Problem::NoFile { value, .. } => {
-                Some(value)
+                Some(value.as_str()).filter(|value| !value.is_empty())
             }
             _ => None,
         }
@@ -114,6 +114,7 @@ impl fmt::Display for SceneError {
         }
         write!(f, "{}", self.key)?;
         match &*self.problem {
+            Problem::Range { value, .. } if value.is_empty() => write!(f, " ")?,
             Problem::Range { value, .. } | Problem::NoFile { value, .. } => write!(f, " = {value}: ")?,
             _ if self.key.is_empty() => {}
             _ => write!(f, ": ")?,

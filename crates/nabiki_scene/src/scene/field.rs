@@ -54,14 +54,14 @@ impl PartialEq for OwnField {
     }
 }
 
-/// What fields are about.
+/// The inputs of fields.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FieldPlace {
     /// E.
     pub ellipsoid: Ellipsoid,
-    /// Where the head is in the world from frame 0 on; none for a head that stands still.
+    /// World poses of the head from frame 0 on; none for a head that does not move.
     pub poses: Arc<[Pose]>,
-    /// Frames a second.
+    /// Frames per second.
     pub frame_rate: f64,
     /// Frames after the rest frame.
     pub frames: u32,
@@ -71,13 +71,13 @@ pub(crate) struct FieldPlace {
     pub may_be_none: bool,
 }
 
-/// Fields ready to be asked.
+/// Fields, built.
 pub(crate) struct FieldParts {
     /// All of them.
     pub field: Arc<dyn Field>,
-    /// The wind before it meets the head: uniform, and none without `[[force]]` and `[body_wind]`.
+    /// The wind before it meets the head: uniform, and 0 without `[[force]]` and `[body_wind]`.
     pub wind: Arc<dyn Field>,
-    /// What each can reach.
+    /// The bound of each.
     pub bounds: Vec<FieldBound>,
 }
 
@@ -119,11 +119,11 @@ impl FieldSettings {
         let local = point.len() + vortex.len() + fan.len() + own.len();
         let none = force.is_empty() && body_wind.is_none() && turbulence.is_none() && local == 0;
         if none && !may_be_none {
-            let remedy = "give at least one [[force]] with through and vector, or another field";
-            return Err(SettingError::new("force", "none", remedy));
+            let remedy = "is missing: give at least one [[force]] with through and vector, or another field";
+            return Err(SettingError::new("force", "", remedy));
         }
         if force.is_empty() && wind.ease != Ease::Stepped {
-            let remedy = "there is no [[force]] to ease: give one, or remove it";
+            let remedy = "there is no [[force]] to ease: add one, or remove this";
             return Err(SettingError::new("wind.ease", wind.ease.word(), remedy));
         }
         if !force.is_empty() {
@@ -133,7 +133,7 @@ impl FieldSettings {
         if let Some(gust) = gust {
             gust.check()?;
             if force.is_empty() {
-                let remedy = "gusts change the strength of [[force]], and there is none: add one, or remove [gust]";
+                let remedy = "gusts change the strength of [[force]], but there is none: add one, or remove [gust]";
                 return Err(SettingError::new("gust", "on", remedy));
             }
         }
@@ -147,7 +147,7 @@ impl FieldSettings {
         if let Some(flow) = flow {
             flow.check()?;
             if force.is_empty() && body_wind.is_none() {
-                let remedy = "there is no [[force]] or [body_wind] to lead around the head: add one, or remove [flow]";
+                let remedy = "there is no [[force]] or [body_wind] to guide around the head: add one, or remove [flow]";
                 return Err(SettingError::new("flow", "on", remedy));
             }
         }
@@ -158,7 +158,7 @@ impl FieldSettings {
         fan.iter().enumerate().try_for_each(|(i, fan)| fan.check_at(&named("fan", i)))
     }
 
-    /// The fields, ready to be asked. `force`: the strengths of `[[force]]`.
+    /// The fields, built. `force`: the strengths of `[[force]]`.
     ///
     /// # Errors
     /// As [`check`](Self::check), and what only shows about this head: an ellipsoid too flat for the flow.
@@ -166,7 +166,7 @@ impl FieldSettings {
         self.build_of(place, force, None)
     }
 
-    /// The same, where this wind blows in the place of `[[force]]` and `[gust]`.
+    /// The same with this wind in place of `[[force]]` and `[gust]`.
     ///
     /// # Errors
     /// As [`build`](Self::build).
@@ -202,7 +202,7 @@ impl FieldSettings {
             winds.push(Arc::new(body_wind));
         }
         let wind = sum(winds);
-        // In head space the head stands still.
+        // In head space the head does not move.
         let poses = match place.space {
             ForceSpace::World => &place.poses[..],
             ForceSpace::Head => &[],
@@ -244,7 +244,7 @@ impl FieldSettings {
         Ok(FieldParts { field: sum(parts), wind, bounds })
     }
 
-    /// The tables, to be written.
+    /// The tables, for writing.
     pub(super) fn tables(&self) -> Result<Table, Unwritable> {
         let Self { force, wind, gust, body_wind, flow, turbulence, point, vortex, fan, own: _ } = self;
         let mut tree = Table::new();
@@ -267,7 +267,7 @@ impl FieldSettings {
         Ok(tree)
     }
 
-    /// The same with every optional table there, at its own defaults.
+    /// The same with every optional table, at its own defaults.
     pub(super) fn with_optional_tables(self) -> Self {
         Self {
             gust: Some(Gust::default()),
@@ -284,7 +284,7 @@ fn list<T: Serialize>(entries: &[T]) -> Result<Value, Unwritable> {
     entries.iter().map(|entry| table_of(entry).map(Value::Table)).collect::<Result<_, _>>().map(Value::Array)
 }
 
-/// The sum of fields; one alone as it is.
+/// The sum of fields; a single one unchanged.
 fn sum(mut parts: Vec<Arc<dyn Field>>) -> Arc<dyn Field> {
     match parts.len() {
         1 => parts.remove(0),

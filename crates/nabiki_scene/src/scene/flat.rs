@@ -11,12 +11,12 @@ use super::read::{Node, Refusal};
 /// The keys that a struct reads.
 pub(super) fn keys<T: DeserializeOwned>() -> &'static [&'static str] {
     let mut keys: &'static [&'static str] = &[];
-    // The deserialiser gives nothing: it only looks at what is asked of it.
+    // The deserialiser returns nothing: it only records what is asked for.
     let _ = T::deserialize(Asked { keys: &mut keys });
     keys
 }
 
-/// Notes the fields that a struct asks for, and refuses to give them.
+/// Records the fields that a struct asks for, and refuses to return them.
 struct Asked<'a> {
     keys: &'a mut &'static [&'static str],
 }

@@ -25,7 +25,7 @@ settings! {
 }
 
 impl ForceSettings {
-    /// What a stepper takes, where a wind of 1 cm/s is as strong as `of_speed`.
+    /// The keyframe for a stepper, if a wind of 1 cm/s has the strength `of_speed`.
     pub fn keyframe(&self, of_speed: f64) -> Keyframe {
         let Self { through, vector, speed } = *self;
         let vector = match speed {
@@ -35,16 +35,16 @@ impl ForceSettings {
         Keyframe { through, vector }
     }
 
-    /// Its vector without a speed: the direction alone where it has one.
+    /// Its vector without a speed: only the direction if it has one.
     pub(crate) fn as_given(&self) -> Keyframe {
         Keyframe { through: self.through, vector: self.vector }
     }
 
-    /// Refuses a speed that goes nowhere, and one out of range.
+    /// Refuses a speed without direction, and one out of range.
     pub(crate) fn check_speed(&self, name: &str) -> Result<(), SettingError> {
         match self.speed {
             Some(speed) if self.vector == Vec3::ZERO => {
-                let remedy = "a wind of this speed needs a direction: give vector one";
+                let remedy = "a wind of this speed needs a direction: set vector";
                 refused(&Place::Table(name).key("speed"), speed, remedy)
             }
             speed => speed.check(&Place::Table(name).key("speed"), &Range::default()),
@@ -58,7 +58,7 @@ impl From<Keyframe> for ForceSettings {
     }
 }
 
-/// Intervals as a scene has them: where the force is what `was` has in these frames, it stays as it is `given` there.
+/// Intervals in the form of a scene: where the force equals `was` in these frames, `given` stays.
 pub(crate) fn given_as(given: &[ForceSettings], was: &[Keyframe], keys: &[Keyframe]) -> Vec<ForceSettings> {
     let given = |key: &Keyframe| {
         let j = was.partition_point(|was| was.through < key.through).min(was.len().checked_sub(1)?);

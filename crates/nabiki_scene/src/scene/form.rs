@@ -1,4 +1,4 @@
-//! `motion.form`: which equations hair moves by.
+//! `motion.form`: the equations that move the hair.
 
 use nabiki::dynamics::Motion;
 use nabiki::{settings, words};
@@ -19,20 +19,20 @@ words! {
 }
 
 settings! {
-    /// The key of `[motion]` that is not the method's.
+    /// The key of `[motion]` that does not belong to the method.
     pub(crate) struct FormKey {
         /// The equations of the motion.
         form: FormChoice = FormChoice::Paper => "Form";
     }
 }
 
-/// The table `[motion]`, read.
+/// Reads the table `[motion]`.
 pub(super) fn read_motion(table: &Table) -> Result<(Motion, FormChoice), Refusal> {
     let (motion, FormKey { form }) = flat::read(table, &[], "")?;
     Ok((motion, form))
 }
 
-/// The table `[motion]`, to be written.
+/// The table `[motion]`, for writing.
 pub(super) fn motion_table(motion: &Motion, form: FormChoice) -> Result<Table, Unwritable> {
     let mut table = table_of(motion)?;
     table.extend(table_of(&FormKey { form })?);

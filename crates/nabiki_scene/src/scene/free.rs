@@ -1,4 +1,4 @@
-//! `[free]`: the free form, with what an animator says in units of the world.
+//! `[free]`: the free form, with values in physical units.
 
 use nabiki::dynamics::{Dynamics, earth_gravity, stiffness_of, substeps};
 use nabiki::free_form::{FreeForm, Tie};
@@ -54,7 +54,7 @@ fn in_own_unit<M: Measure>(profile: &Profile) -> Profile<Amount<M>> {
     profile.map(|&number| number.into())
 }
 
-/// How long the hair of a scene is in the mean, and its segments (cm).
+/// Mean length of a scene's hair, and that of its segments (cm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MeanLengths {
     pub strand: f64,
@@ -62,7 +62,7 @@ pub(crate) struct MeanLengths {
 }
 
 impl FreeSettings {
-    /// The same in the unit of the force and in frames, as steppers take it, for hair of these lengths.
+    /// The same in the unit of the force and in frames, for steppers, for hair of these lengths.
     pub(crate) fn resolved(&self, dynamics: &Dynamics, mean: MeanLengths) -> FreeForm {
         let Self { stiffness, hold, settle, gravity, drag, pseudo_force, variation, regions, tie, substeps: steps } =
             self;
@@ -86,7 +86,7 @@ impl FreeSettings {
         form
     }
 
-    /// Takes over a solver's stiffness and settling where they are others than the scene's own, which were `was` to it.
+    /// Applies a solver's stiffness and settling where they differ from the scene's own, which were `was` to it.
     pub(crate) fn accept(&mut self, was: &FreeForm, stiffness: &Profile, settle: &Profile) {
         if *stiffness != was.stiffness {
             self.stiffness = in_own_unit(stiffness);
@@ -96,7 +96,7 @@ impl FreeSettings {
         }
     }
 
-    /// A length in which weight bends hair says nothing without weight.
+    /// A bending length means nothing without weight.
     fn weight_bends_it(&self, at: &Place) -> Result<(), SettingError> {
         match self.stiffness.values().iter().find_map(Amount::quantity) {
             Some(length) if self.gravity.is_zero() => {

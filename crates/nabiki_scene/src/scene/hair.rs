@@ -144,7 +144,7 @@ impl HairSettings {
         }
     }
 
-    /// The table `[hair]`, read.
+    /// Reads the table `[hair]`.
     pub(super) fn read(table: &Table) -> Result<Self, Refusal> {
         let (AnyHair { segment_length }, source) = if table.contains_key("file") {
             let why = "has no effect on hair that hair.file imports: remove one of them";
@@ -158,7 +158,7 @@ impl HairSettings {
         Ok(Self { source, segment_length })
     }
 
-    /// The table `[hair]`, to be written.
+    /// The table `[hair]`, for writing.
     pub(super) fn table(&self) -> Result<Table, Unwritable> {
         let mut table = match &self.source {
             HairSource::Grown(hair) => table_of(hair)?,
@@ -168,11 +168,11 @@ impl HairSettings {
         Ok(table)
     }
 
-    /// The same source with all else at its default.
+    /// The same source with everything else at its default.
     pub(super) fn with_defaults(&self) -> Self {
         let source = match &self.source {
             HairSource::Grown(_) => HairSource::default(),
-            // A file has no default: that of nowhere differs from any.
+            // A file has no default: an empty path differs from any.
             HairSource::Imported(_) => HairSource::Imported(ImportedHair::default()),
         };
         Self { source, ..Self::default() }

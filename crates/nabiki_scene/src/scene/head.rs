@@ -157,7 +157,7 @@ impl HeadSettings {
         }
     }
 
-    /// The table `[head]`, read.
+    /// Reads the table `[head]`.
     pub(super) fn read(table: &Table) -> Result<Self, Refusal> {
         match table.get("mesh") {
             Some(Value::String(mesh)) if !mesh.starts_with("builtin:") => {
@@ -176,7 +176,7 @@ impl HeadSettings {
         }
     }
 
-    /// The table `[head]`, to be written.
+    /// The table `[head]`, for writing.
     pub(super) fn table(&self) -> Result<Table, Unwritable> {
         let mut table = match &self.source {
             HeadSource::Builtin => table_of(&BuiltinHead::default())?,
@@ -186,11 +186,11 @@ impl HeadSettings {
         Ok(table)
     }
 
-    /// The same source with all else at its default.
+    /// The same source with everything else at its default.
     pub(super) fn with_defaults(&self) -> Self {
         let source = match &self.source {
             HeadSource::Builtin => HeadSource::Builtin,
-            // A file has no default: that of nowhere differs from any.
+            // A file has no default: an empty path differs from any.
             HeadSource::Imported(_) => HeadSource::Imported(ImportedHead::default()),
         };
         Self { source, motion: None, ..Self::default() }
@@ -221,19 +221,19 @@ impl ImportedHead {
         }
     }
 
-    /// Refuses what can be told without the file, which may say its unit and up axis itself.
+    /// Refuses what is wrong whatever the file declares: it may have its own unit and up axis.
     fn is_placed(&self, at: &Place) -> Result<(), SettingError> {
         check_named(&at.key("mesh"), &self.mesh)?;
         check_placement(&Key::from(at).to_string(), self.unit, self.up, self.facing, self.origin)
     }
 }
 
-/// Refuses a file without a name, which a scene file would leave out.
+/// Refuses an empty path, which a scene file would leave out.
 pub(super) fn check_named(at: &Place, file: &Path) -> Result<(), SettingError> {
     if file.as_os_str().is_empty() { refused(at, "\"\"", "name a file") } else { Ok(()) }
 }
 
-/// Refuses what the given parts of a placement cannot be, whatever a file says of the others.
+/// Refuses given parts of a placement that are wrong whatever a file declares for the others.
 pub(super) fn check_placement(
     table: &str,
     unit: Option<Unit>,

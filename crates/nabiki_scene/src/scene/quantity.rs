@@ -10,16 +10,16 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A kind of quantity, with its units.
 pub trait Measure: Copy + Debug + PartialEq {
-    /// The units, as they are written after the number.
+    /// The units, as written after the number.
     const UNITS: &'static [&'static str];
-    /// How many of the first unit each is.
+    /// Size of each unit in the first one.
     const FACTORS: &'static [f64];
     /// A quantity in words, with an example of each unit.
     const SAID: &'static str;
-    /// What text it may be.
+    /// Description of valid text.
     const KIND: Kind = Kind::Quantity(Self::UNITS);
 
-    /// The first units that a word of its own stands for.
+    /// Words for some number of the first unit.
     fn named(_: &str) -> Option<f32> {
         None
     }
@@ -45,9 +45,9 @@ measures! {
     Length ["cm" = 1.0] "a length, \"4.5 cm\""
     /// A time (s).
     Time ["s" = 1.0] "a time, \"0.8 s\""
-    /// A strength, by the weight of hair on the earth.
+    /// A strength, relative to the weight of hair on earth.
     Strength ["g" = 1.0] "a part of the earth's gravity, \"0.3 g\""
-    /// The weight of hair, by that on the earth.
+    /// Gravity, relative to that of the earth.
     Weight ["g" = 1.0] "a part of the earth's, \"1 g\", or \"earth\"" {
         const KIND: Kind = Kind::OneOf(&[
             Kind::Quantity(Self::UNITS),
@@ -67,7 +67,7 @@ measures! {
 pub struct Quantity<M> {
     /// The number.
     pub number: f32,
-    /// Which of the measure's units.
+    /// The index of its unit in the measure.
     unit: usize,
     measure: PhantomData<M>,
 }
@@ -135,7 +135,7 @@ impl<'de, M: Measure> Deserialize<'de> for Quantity<M> {
     }
 }
 
-/// What a quantity is read from.
+/// The text form of a quantity.
 struct OfText<M>(PhantomData<M>);
 
 impl<M: Measure> Visitor<'_> for OfText<M> {
@@ -213,7 +213,7 @@ impl<'de, M: Measure> Deserialize<'de> for Amount<M> {
     }
 }
 
-/// What an amount is read from.
+/// The file form of an amount.
 struct OfNumberOrText<M>(PhantomData<M>);
 
 impl<M: Measure> Visitor<'_> for OfNumberOrText<M> {

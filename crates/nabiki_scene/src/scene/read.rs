@@ -1,4 +1,4 @@
-//! Settings out of a TOML tree, with errors that say which key is wrong and what was perhaps meant.
+//! Reads settings from a TOML tree, with errors that name the wrong key and a likely correction.
 
 use std::fmt::{self, Display};
 
@@ -15,7 +15,7 @@ use nabiki_io::names::nearest;
 
 use super::error::Problem;
 
-/// A value refused while settings were read.
+/// A value refused while reading settings.
 #[derive(Debug)]
 pub(crate) struct Refusal {
     /// Keys and indices from the refused value outward.
@@ -37,12 +37,12 @@ impl Refusal {
         Self::new(Problem::Range { value, remedy })
     }
 
-    /// A key without effect beside what else the scene says.
+    /// A key without effect in this scene.
     pub fn useless(why: &str) -> Self {
         Self::new(Problem::Useless(why.to_owned()))
     }
 
-    /// A key that is none of `known`.
+    /// A key that is not one of `known`.
     pub fn unknown_key(found: &str, known: impl Iterator<Item = &'static str> + Clone) -> Self {
         let near = nearest(found, known.clone()).map(str::to_owned);
         let known = known.map(str::to_owned).collect();
@@ -54,17 +54,17 @@ impl Refusal {
         Self::new(Problem::Kind { found: found.into(), wanted: wanted.into() })
     }
 
-    /// A list where one table is wanted.
+    /// A list in place of a table.
     fn not_one_table(list: &[Value], wanted: &str) -> Self {
         match list {
             [Value::Table(_), ..] => {
-                Self::kind("a list of tables", format!("{wanted}; in a file it begins with one bracket, [...]"))
+                Self::kind("a list of tables", format!("{wanted}; in a file, write [...] above it"))
             }
             _ => Self::kind(words(Unexpected::Seq), wanted),
         }
     }
 
-    /// The same with the value, where a choice of kinds says only what must be.
+    /// The same with the value, if a choice of types only says what it must be.
     fn found(self, value: &Value) -> Self {
         match &self.problem {
             Problem::Other(text) if self.outward.is_empty() => match text.strip_prefix("must be ") {
@@ -75,7 +75,7 @@ impl Refusal {
         }
     }
 
-    /// The same of a choice that was named without what belongs to it, of which `wanted` are all.
+    /// The same for a choice that was named without its content; `wanted` describes all choices.
     fn of_choice(self, name: &str, wanted: &str) -> Self {
         match &self.problem {
             Problem::Kind { found, .. } if found == ALONE => Self::kind(format!("\"{name}\" alone"), wanted),
@@ -83,13 +83,13 @@ impl Refusal {
         }
     }
 
-    /// The same of a value that stands below `key`.
+    /// The same for a value below `key`.
     pub fn below(mut self, key: impl Into<String>) -> Self {
         self.outward.push(key.into());
         self
     }
 
-    /// The dotted path of the refused value, and what is wrong with it.
+    /// The dotted path of the refused value, and the problem.
     pub fn into_parts(self) -> (String, Problem) {
         let path = join(self.outward.iter().rev());
         let problem = match self.problem {
@@ -121,7 +121,7 @@ fn join<'a>(steps: impl Iterator<Item = &'a String>) -> String {
     path
 }
 
-/// Whether a step of a path is a place in a list.
+/// Whether a step of a path is an index of a list.
 fn is_index(step: &str) -> bool {
     step.bytes().all(|b| b.is_ascii_digit())
 }
@@ -141,7 +141,7 @@ impl de::Error for Refusal {
 
     fn invalid_type(found: Unexpected, wanted: &dyn Expected) -> Self {
         let wanted = match (&found, plain(wanted)) {
-            // TOML holds no number too large for 64 bits, so it is for 32.
+            // TOML has no numbers above 64 bits, so the limit is that of 32 bits.
             (Unexpected::Signed(0..) | Unexpected::Unsigned(_), text) if text == AT_LEAST_0 => {
                 format!("a whole number of at most {}", u32::MAX)
             }
@@ -185,10 +185,10 @@ fn one_of(names: &[&str]) -> String {
     format!("one of {}", list.join(", "))
 }
 
-/// What is found of a choice whose name stands there without what belongs to it.
+/// Found: a choice given only by its name.
 const ALONE: &str = "the name alone";
 
-/// What was found, in words of the user's.
+/// What was found, in the user's words.
 fn words(found: Unexpected) -> String {
     match found {
         Unexpected::UnitVariant => ALONE.to_owned(),
@@ -205,7 +205,7 @@ fn words(found: Unexpected) -> String {
 
 const AT_LEAST_0: &str = "a whole number of at least 0";
 
-/// Type names of the language as words of the user's.
+/// Type names of the language in the user's words.
 fn plain(wanted: &dyn Expected) -> String {
     match wanted.to_string().as_str() {
         "u8" => whole_up_to(u8::MAX.into()),
@@ -243,7 +243,7 @@ fn unexpected(value: &Value) -> Unexpected<'_> {
     }
 }
 
-/// One value of the tree.
+/// A value of the tree.
 pub(crate) struct Node<'a>(pub &'a Value);
 
 impl<'de> IntoDeserializer<'de, Refusal> for Node<'_> {
@@ -261,7 +261,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
         match self.0 {
             Value::String(text) => visitor.visit_str(text),
             Value::Integer(number) => visitor.visit_i64(*number),
-            // It would be infinite where it is kept, and would be refused as that.
+            // It would be stored as infinity, and refused as that.
             Value::Float(number) if number.is_finite() && !(*number as f32).is_finite() => {
                 Err(Refusal::range(format!("{number:e}"), "must lie in -3.4e38..3.4e38".to_owned()))
             }
@@ -296,7 +296,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
         names: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refusal> {
-        // A choice of more than names says itself what it may be.
+        // A choice with content describes itself.
         let wanted = match plain(&visitor) {
             text if text.starts_with("enum ") => one_of(names),
             text => text,
@@ -315,7 +315,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Refusal> {
         if self.0.is_table() {
-            let wanted = "a list in brackets, even of one; in a file, each table of a list begins with two, [[...]]";
+            let wanted = "a list in brackets, even of one entry; in a file, write [[...]] above each table of a list";
             return Err(Refusal::kind(words(Unexpected::Map), wanted));
         }
         self.deserialize_any(visitor)
@@ -334,7 +334,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Refusal> {
-        // Serde would take an array for the fields in their order.
+        // Serde would read an array as the fields in order.
         if let Value::Array(list) = self.0 {
             let wanted = match fields.len() {
                 ..=MOST_NAMED => format!("a table {{ {} }}", fields.join(", ")),
@@ -351,7 +351,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
     }
 }
 
-/// A table of up to so many keys is described by them.
+/// A table of at most this many keys is described by them.
 const MOST_NAMED: usize = 6;
 
 /// The entries of an array.

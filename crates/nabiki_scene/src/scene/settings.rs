@@ -29,7 +29,7 @@ impl Scene {
         if let Some(value) = tree::at(&self.settings()?, key) {
             return Ok(Some(value.clone()));
         }
-        // Any value will do to hear whether there is a setting of that name.
+        // Any value shows whether the setting exists.
         match self.with_setting(key, Some(true.into())) {
             Err(refused) if matches!(*refused.problem, Problem::UnknownKey { .. }) => Err(refused),
             _ => Ok(None),
@@ -57,7 +57,7 @@ impl Scene {
 
     /// The scene with `path` as its file, which need not exist. Relative paths are adapted to lead to the same files.
     pub fn moved_to(mut self, path: &Path) -> Self {
-        // A name alone lies in the working folder, as does what a scene of no file names.
+        // A bare name is in the working folder, and so are the paths of a scene without a file.
         let folder = |file: &Path| {
             let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());
             std::path::absolute(parent.unwrap_or(Path::new("."))).unwrap_or_default()
@@ -88,7 +88,7 @@ impl Scene {
     }
 }
 
-/// The way to an absolute path from an absolute folder; the path itself where the two share nothing but the root.
+/// The relative path from an absolute folder to an absolute path; the path itself if they share only the root.
 fn from_folder(folder: &Path, path: &Path) -> PathBuf {
     let clean = |path: &Path| {
         let mut steps: Vec<Component> = Vec::new();
@@ -151,7 +151,7 @@ mod tests {
         assert!(["gust.seed", "force[7].vector"].iter().all(|key| scene().setting(key).unwrap().is_none()));
         for key in ["free.".to_owned() + &"a.".repeat(100_000) + "b", "force".to_owned() + &"[0]".repeat(100_000)] {
             let line = refused(&key, 1.into()).to_string();
-            assert!(line.contains("no setting lies so deep") && line.len() < 300, "{line}");
+            assert!(line.contains("no setting is nested so deep") && line.len() < 300, "{line}");
             assert_eq!(scene().setting(&key).unwrap_err().to_string(), line);
             let open = [(key.clone(), "1".to_owned())];
             assert!(Scene::parse("", "".as_ref(), &open).unwrap_err().to_string().len() < 300);
@@ -159,7 +159,7 @@ mod tests {
         let kind = refused("motion.frames", "many".into());
         assert_eq!(kind.key, "motion.frames");
         assert!(matches!(*kind.problem, Problem::Kind { .. }));
-        // The place of a value that the file has is its line.
+        // The place of a value in the file is its line.
         assert_eq!(refused("force[0].vector", 1.into()).line, Some(4));
     }
 
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(moved.head.motion.as_ref().unwrap().file, Path::new("../../motion/turn.csv"));
         assert_eq!(moved.moved_to("/a/b/d.toml".as_ref()), Scene::parse(text, "/a/b/d.toml".as_ref(), &[]).unwrap());
         assert_eq!(scene.clone().moved_to("/a/b/d.toml".as_ref()), scene);
-        // A name alone, or none, lies in the working folder.
+        // A bare name, or none, is in the working folder.
         for file in ["c.toml", ""] {
             let here = Scene::parse(text, file.as_ref(), &[]).unwrap();
             let below = here.clone().moved_to("x/c.toml".as_ref());

@@ -1,4 +1,4 @@
-//! A scene file as a tree of TOML values that remembers where each stood, so that errors can say so.
+//! A scene file as a tree of TOML values with their positions, for errors.
 
 use std::{
     collections::BTreeMap,
@@ -24,7 +24,7 @@ pub(crate) struct Origins {
     lines: BTreeMap<String, usize>,
     /// Text of the override that set each dotted path.
     overrides: BTreeMap<String, String>,
-    /// Overrides by a table, each with the keys of the file that are not in it and so gone.
+    /// Overrides of whole tables, each with the keys of the file that it removed.
     replaced: Vec<(String, Vec<String>)>,
 }
 
@@ -42,7 +42,7 @@ impl Origins {
             if let Some(&line) = self.lines.get(at) {
                 return SceneError { line: Some(line), ..whole };
             }
-            // What is not in the file stands where its table does.
+            // What is not in the file has the position of its table.
             match at.rsplit_once('.') {
                 Some((parent, _)) => at = parent,
                 None => return whole,
@@ -50,14 +50,14 @@ impl Origins {
         }
     }
 
-    /// Whether an override set the value at a path (dotted), or a table that it stands in.
+    /// Whether an override set the value at a path (dotted), or a table around it.
     pub fn is_overridden(&self, path: &str) -> bool {
         self.overrides
             .keys()
             .any(|set| path.strip_prefix(set.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
     }
 
-    /// What tables of overrides took out of the file by taking the place of its own: a line each.
+    /// Keys of the file that overrides of whole tables removed: a line each.
     pub fn replaced(&self) -> impl Iterator<Item = String> {
         let line = |(text, gone): &(String, Vec<String>)| {
             let keys = gone.join(", ");
@@ -68,7 +68,7 @@ impl Origins {
         self.replaced.iter().map(line)
     }
 
-    /// Notes that the value at a path (dotted, or with indices in brackets) is no override's any more.
+    /// Records that the value at a path (dotted, or with indices in brackets) no longer comes from an override.
     pub fn set_anew(&mut self, path: &str) {
         let path = dotted(path).join(".");
         let below = format!("{path}.");
@@ -76,7 +76,7 @@ impl Origins {
         self.replaced.clear();
     }
 
-    /// Notes that an override set the value at a path, and all below it, and made the tables on the way that the file has not.
+    /// Records that an override set the value at a path and all below it, and created the missing tables on the way.
     fn override_at(&mut self, steps: &[String], text: &str) {
         let path = steps.join(".");
         let below = format!("{path}.");
@@ -92,13 +92,13 @@ impl Origins {
     }
 }
 
-/// Settings that TOML cannot hold: why.
+/// Why TOML cannot store some settings.
 #[derive(Debug)]
 pub(super) struct Unwritable(pub String);
 
-/// Settings as the tree that they are read from.
+/// Settings as the tree from which they are read.
 pub(super) fn table_of(settings: &impl Serialize) -> Result<Table, Unwritable> {
-    // By way of text, in which a number of 32 bits has no more digits than it takes to tell it from its neighbours.
+    // Via text, in which a number of 32 bits has only the digits that distinguish it from its neighbours.
     let text = toml::to_string(settings).map_err(|e| Unwritable(e.to_string()))?;
     text.parse().map_err(|e: toml::de::Error| Unwritable(e.message().to_owned()))
 }
@@ -150,13 +150,13 @@ pub(crate) fn parse(
     Ok((table, origins))
 }
 
-/// The keys of a table that are not in what took its place.
+/// The keys of a table that are missing in its replacement.
 fn gone(before: Option<Table>, after: Option<&Value>) -> Vec<String> {
     let Some(after) = after.and_then(Value::as_table) else { return Vec::new() };
     before.into_iter().flatten().map(|(key, _)| key).filter(|key| !after.contains_key(key)).collect()
 }
 
-/// Notes the line of every entry of a table.
+/// Records the line of every entry of a table.
 fn record_table(table: &DeTable, path: &str, line_at: &impl Fn(usize) -> usize, lines: &mut BTreeMap<String, usize>) {
     for (key, value) in table {
         let below = if path.is_empty() { key.get_ref().to_string() } else { format!("{path}.{}", key.get_ref()) };
@@ -181,18 +181,18 @@ fn record_value(value: &DeValue, path: &str, line_at: &impl Fn(usize) -> usize, 
 
 /// The steps of a path, `force.1.vector` or `force[1].vector`.
 fn dotted(path: &str) -> Vec<String> {
-    // A place in a list is called in one way only, by which errors find it again: 0, not 00.
+    // An index has one spelling only, by which errors find it: 0, not 00.
     let step = |step: &str| step.parse::<usize>().map_or_else(|_| step.to_owned(), |place| place.to_string());
     path.replace('[', ".").replace(']', "").split('.').map(|name| step(name.trim())).collect()
 }
 
-/// Puts `text`, read as a TOML value or else as a string, at `path`, making tables on the way where there are none.
+/// Puts `text`, a TOML value or else a string, at `path`, and creates missing tables on the way.
 fn set(table: &mut Table, path: &str, text: &str, defaults: &impl Fn() -> Table) -> Result<(), String> {
     let text = text.trim();
     let value: Value = match text.parse() {
         Ok(value) => value,
         Err(_) if text.parse::<i128>().is_ok() => {
-            return Err(format!("{text} is outside the whole numbers of TOML, {} to {}", i64::MIN, i64::MAX));
+            return Err(format!("{text} is outside TOML's whole numbers, {} to {}", i64::MIN, i64::MAX));
         }
         Err(_) if begins_as_toml(text) => {
             return Err(format!("{text} is not a TOML value: write 0.5, not .5, and close each bracket and quote"));
@@ -210,14 +210,14 @@ fn set(table: &mut Table, path: &str, text: &str, defaults: &impl Fn() -> Table)
     place(table, path).map(|place| *place = value)
 }
 
-/// Whether a text that TOML does not take was meant as a number, a list or a table of it, and not as a word without its quotes.
+/// Whether a text that is not TOML was meant as a number, a list or a table, and not as a word without its quotes.
 fn begins_as_toml(text: &str) -> bool {
     let number = text.trim_start_matches(['+', '-']).trim_start_matches('.');
     text.starts_with(['[', '{', '"', '\''])
         || (number.starts_with(|c: char| c.is_ascii_digit()) && text.parse::<f64>().is_ok())
 }
 
-/// What is at the end of `steps`.
+/// The value at the end of `steps`.
 fn look<'a>(table: &'a Table, steps: &[String]) -> Option<&'a Value> {
     let (first, rest) = steps.split_first()?;
     rest.iter().try_fold(table.get(first)?, |place, step| match place {
@@ -226,10 +226,10 @@ fn look<'a>(table: &'a Table, steps: &[String]) -> Option<&'a Value> {
     })
 }
 
-/// Names and places of a path that are followed; no setting has half as many.
+/// Most steps of a path; no setting has half as many.
 const DEEPEST: usize = 32;
 
-/// The place at `path`, with tables made on the way where there are none.
+/// The place at `path`; creates missing tables on the way.
 fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> {
     let steps = dotted(path);
     if steps.iter().any(String::is_empty) || path.matches('[').count() != path.matches(']').count() {
@@ -251,26 +251,26 @@ fn place<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value, String> 
                 }
                 &mut values[index]
             }
-            other => return Err(format!("{so_far} is {} {other}, it has nothing below it", other.type_str())),
+            other => return Err(format!("{so_far} is {} {other}, which has no keys", other.type_str())),
         };
     }
     Ok(place)
 }
 
-/// Refuses a path of more steps than are followed.
+/// Refuses a path with too many steps.
 fn check_depth(steps: &[String]) -> Result<(), String> {
     if steps.len() <= DEEPEST {
         return Ok(());
     }
-    Err(format!("{} names within one another: no setting lies so deep", steps.len()))
+    Err(format!("{} nested names: no setting is nested so deep", steps.len()))
 }
 
-/// The same of a path that is not taken apart yet.
+/// The same for a path that is not split yet.
 pub(super) fn check_path(path: &str) -> Result<(), String> {
     check_depth(&dotted(path))
 }
 
-/// A path as a line has it: one that nobody can read is cut.
+/// A path for an error: cut if it is too long to read.
 pub(super) fn short(path: &str) -> String {
     const MOST: usize = 80;
     match path.char_indices().nth(MOST) {
@@ -279,12 +279,12 @@ pub(super) fn short(path: &str) -> String {
     }
 }
 
-/// What is at `path`.
+/// The value at `path`.
 pub(super) fn at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     look(table, &dotted(path))
 }
 
-/// Puts `value` at `path`, making tables on the way where there are none; takes out what is there where there is no value.
+/// Puts `value` at `path` and creates missing tables on the way; without a value, removes what is there.
 pub(super) fn put(table: &mut Table, path: &str, value: Option<Value>) -> Result<(), String> {
     match value {
         Some(value) => place(table, path).map(|place| *place = value),
@@ -295,7 +295,7 @@ pub(super) fn put(table: &mut Table, path: &str, value: Option<Value>) -> Result
     }
 }
 
-/// Takes out what is at the end of `steps`, if anything is.
+/// Removes what is at the end of `steps`, if anything is.
 fn remove(table: &mut Table, steps: &[String]) {
     match steps {
         [] => {}
@@ -319,7 +319,7 @@ fn remove(table: &mut Table, steps: &[String]) {
     }
 }
 
-/// What to make for the part of a path that is not there yet.
+/// What to create for the missing part of a path.
 fn below(steps: &[String], depth: usize) -> Value {
     match steps.get(depth) {
         Some(step) if step.parse::<usize>().is_ok() => Value::Array(Vec::new()),
@@ -327,7 +327,7 @@ fn below(steps: &[String], depth: usize) -> Value {
     }
 }
 
-/// The setting of `tree` whose path ends as `key` does, and begins with a table that was forgotten.
+/// The setting of `tree` whose path ends like `key`, but begins with a table that was forgotten.
 pub(crate) fn elsewhere(tree: &Table, key: &str) -> Option<String> {
     tree.iter().find_map(|(name, value)| {
         let below = value.as_table()?;

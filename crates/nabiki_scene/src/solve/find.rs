@@ -64,9 +64,9 @@ struct Finder<'a> {
     file: &'a WishFile,
     built: &'a BuiltScene,
     space: WishSpace,
-    /// The scene's motion, once it has been looked at.
+    /// The scene's motion, once it was needed.
     timeline: Option<Timeline>,
-    /// The place of each strand by its number in the scene's.
+    /// The index of each strand by its number in the scene.
     places: HashMap<u32, usize>,
 }
 
@@ -83,7 +83,7 @@ impl Finder<'_> {
         Err(self.refused(key, frame.to_string(), format!("hair moves in frames 1 to {frames} of the scene")))
     }
 
-    /// The nodes of a lock, strand by strand. `name`: what the wish is called; `frame`: what it is about.
+    /// The nodes of a lock, strand by strand. `name`: the name of the wish; `frame`: its frame.
     fn nodes(&mut self, name: &str, lock: &Lock, frame: u32) -> Result<Vec<Node>> {
         let strands = self.built.strands();
         let part = |s: usize, [from, to]: [f32; 2]| nodes_of(s as u32, strands.strand(s).len(), from..=to);
@@ -110,7 +110,7 @@ impl Finder<'_> {
                 nodes.extend(part(s, along));
             }
             if nodes.is_empty() {
-                let remedy = "no moving node is there: use a longer part of the strands";
+                let remedy = "contains no moving node: use a longer part of the strands";
                 return Err(self.refused(&format!("{name}.along"), format!("{along:?}"), remedy));
             }
             return Ok(nodes);

@@ -70,7 +70,7 @@ impl fmt::Display for Solved {
         for (name, wish) in names.iter().zip(&report.wishes) {
             if wish.after_cm > MET_CM {
                 let WishLeft { before_cm, after_cm } = wish;
-                // What is to stay is where it should be before.
+                // A nail is at its goal before the search.
                 let far = match *before_cm == 0.0 {
                     true => format!("has moved by {after_cm:.1} cm"),
                     false => format!("is not reached: {after_cm:.1} cm are left of {before_cm:.1}"),

@@ -246,8 +246,8 @@ impl Wishes {
     /// Names the first such value.
     pub fn check(&self) -> Result<(), SettingError> {
         if self.wish.is_empty() && self.nail.is_empty() {
-            let remedy = "nothing to solve for: give a [[wish]] with frame, strands or near, and a goal";
-            return Err(SettingError::new("wish", "none", remedy));
+            let remedy = "is missing: give a [[wish]] with frame, strands or near, and a goal";
+            return Err(SettingError::new("wish", "", remedy));
         }
         self.unknowns.as_ref().map_or(Ok(()), Unknowns::check)?;
         for (i, wish) in self.wish.iter().enumerate() {
@@ -299,9 +299,8 @@ impl Unknowns {
     fn check(&self) -> Result<(), SettingError> {
         let Self { vectors, borders, interval, gust, stiffness, settle } = self;
         if vectors.is_empty() && borders.is_empty() && interval.is_none() && !gust && !stiffness && !settle {
-            let remedy =
-                "nothing may change: give [unknowns] with vectors, borders, interval, gust, stiffness or settle";
-            return Err(SettingError::new("unknowns", "none", remedy));
+            let remedy = "is empty, so nothing may change: give vectors, borders, interval, gust, stiffness or settle";
+            return Err(SettingError::new("unknowns", "", remedy));
         }
         for (key, list) in [("vectors", vectors), ("borders", borders)] {
             if let Some(i) = (0..list.len()).find(|&i| list[..i].contains(&list[i])) {
@@ -318,8 +317,8 @@ impl Unknowns {
         }
     }
 
-    /// Those of the unknowns that a wish can feel, and of each vector that none can, which stays as it is, what is said of
-    /// it. `force` and `unknowns`: what [`of`](Self::of) gives; `last`: the last frame that a wish or nail is about.
+    /// The unknowns that a wish can feel, and a line about each one that none can, which stays as it is. `force` and
+    /// `unknowns`: from [`of`](Self::of); `last`: the last frame of a wish or nail.
     ///
     /// # Errors
     /// Names the first vector, where nothing is left that may change.
@@ -331,7 +330,7 @@ impl Unknowns {
         last: u32,
     ) -> Result<(Vec<Unknown>, Vec<String>), SettingError> {
         let first_felt = |unknown: Unknown| match unknown {
-            // A border that may change may bring what comes behind it nearer.
+            // A border that may change may bring the interval after it nearer.
             Unknown::Vector(j) if !unknowns.iter().any(|u| matches!(u, Unknown::Border(before) if *before < j)) => {
                 KeyframedField::new(force).map(|field| field.eased(ease).first_felt(j))
             }
@@ -386,7 +385,7 @@ impl Unknowns {
             let remedy = match force.len() {
                 n if j < n => return Ok(()),
                 0 => "the scene has no [[force]]: give it one, or ask for a new interval".to_owned(),
-                1 => "the scene has one interval of [[force]], number 0".to_owned(),
+                1 => "the only interval of [[force]] is number 0".to_owned(),
                 n => format!("the intervals of [[force]] are 0 to {}", n - 1),
             };
             Err(SettingError::new(format!("unknowns.{key}[{i}]"), j, remedy))
@@ -416,7 +415,7 @@ impl WishEntry {
         Lock { strands: &self.strands, near: self.near, along: self.along }
     }
 
-    /// Where it should be, in the file's space. `name`: what it is called.
+    /// Its goal, in the file's space. `name`: the name of the wish.
     pub(super) fn goal(&self, name: &str) -> Result<Goal, SettingError> {
         let goals = [
             ("moved", self.moved.map(Goal::Moved)),
@@ -426,10 +425,13 @@ impl WishEntry {
         ];
         let mut given = goals.into_iter().filter_map(|(key, goal)| Some((key, goal?)));
         let (first, second) = (given.next(), given.next());
-        let remedy = "give the goal as one of moved, mean_moved, mean_at and places";
-        let Some((key, goal)) = first else { return Err(SettingError::new(name, "no goal", remedy)) };
+        let Some((key, goal)) = first else {
+            let remedy = "has no goal: give one of moved, mean_moved, mean_at and places";
+            return Err(SettingError::new(name, "", remedy));
+        };
         if let Some((other, _)) = second {
-            return Err(SettingError::new(format!("{name}.{other}"), format!("given with {key}"), remedy));
+            let remedy = format!("is given with {key}: give only one of moved, mean_moved, mean_at and places");
+            return Err(SettingError::new(format!("{name}.{other}"), "", remedy));
         }
         let finite = match &goal {
             Goal::Moved(v) | Goal::MeanMoved(v) | Goal::MeanAt(v) => v.is_finite(),
@@ -439,8 +441,8 @@ impl WishEntry {
         match finite {
             true => Ok(goal),
             false => {
-                let remedy = "every coordinate must be a finite number (cm)";
-                Err(SettingError::new(format!("{name}.{key}"), "not finite", remedy))
+                let remedy = "is not finite: every coordinate must be a finite number (cm)";
+                Err(SettingError::new(format!("{name}.{key}"), "", remedy))
             }
         }
     }
@@ -458,12 +460,12 @@ impl Lock<'_> {
         match (strands.is_empty(), near) {
             (false, None) => {}
             (true, None) => {
-                let remedy = "name the hair: strands = [0, 1], or near = { point = [x, y, z], radius = 2 }";
-                return Err(SettingError::new(name, "no hair", remedy));
+                let remedy = "names no hair: give strands = [0, 1], or near = { point = [x, y, z], radius = 2 }";
+                return Err(SettingError::new(name, "", remedy));
             }
             (false, Some(_)) => {
-                let remedy = "name either strands or a point near them";
-                return Err(SettingError::new(format!("{name}.near"), "given with strands", remedy));
+                let remedy = "is given with strands: give only one of the two";
+                return Err(SettingError::new(format!("{name}.near"), "", remedy));
             }
             (true, Some(Near { point, radius, .. })) => {
                 if !point.is_finite() {

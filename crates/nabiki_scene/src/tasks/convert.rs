@@ -71,7 +71,7 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     }
 }
 
-/// Refuses what nothing can be written as, or over, before the input is opened.
+/// Refuses outputs that cannot be written, or would overwrite something else, before the input is opened.
 fn check_output(options: &ConvertOptions) -> Result<()> {
     let output = options.output.as_path();
     place::file(output)?;
@@ -95,7 +95,7 @@ fn check_output(options: &ConvertOptions) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a unit that is none, and a space for a cache, which knows its own.
+/// Refuses an invalid unit, and a unit or axes for a cache, which declares its own.
 fn check_space(options: &ConvertOptions) -> Result<()> {
     if let Some(unit) = options.unit {
         check_positive("--unit", unit.cm).map_err(|e| Error::refused(e.to_string()))?;
@@ -109,13 +109,13 @@ fn check_space(options: &ConvertOptions) -> Result<()> {
     }
 }
 
-/// The options that say a space.
+/// The options for unit and axes.
 fn given_space(options: &ConvertOptions) -> impl Iterator<Item = &'static str> {
     let all = [(options.unit.is_some(), "--unit"), (options.z_up, "--z-up")];
     all.into_iter().filter(|&(given, _)| given).map(|(_, option)| option)
 }
 
-/// Says that a space is given in vain, where the output cannot name it.
+/// Reports options without effect if the output cannot declare unit and axes.
 fn advise_space(options: &ConvertOptions, watch: &mut dyn Watch) {
     if exchange::is_usd(&options.output) {
         return;
@@ -131,7 +131,7 @@ fn is_cache(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nabiki"))
 }
 
-/// What is converted, opened once.
+/// The input, opened once.
 enum Input {
     Cache(Box<Reader>),
     Groom(GroomFile),
@@ -153,7 +153,7 @@ impl Input {
         }
     }
 
-    /// Unit and up axis of its points, as far as it says them.
+    /// Unit and up axis of its points, as far as it declares them.
     fn declared_space(&mut self) -> Result<DeclaredSpace> {
         match self {
             Self::Cache(cache) => Ok(space_of(cache)),
@@ -161,7 +161,7 @@ impl Input {
         }
     }
 
-    /// The hair of one frame, and where the head is in it.
+    /// The hair of one frame, and the pose of the head in it.
     fn read(&mut self, options: &ConvertOptions) -> Result<(Hair, Pose)> {
         let input = options.input.as_path();
         match self {
@@ -190,7 +190,7 @@ impl Input {
         }
     }
 
-    /// The number of the frame that is written alone on the time line of the input, and the frames a second of that.
+    /// The number of the only frame written, on the timeline of the input, and the frame rate of that.
     fn number(&mut self, options: &ConvertOptions) -> Result<(i32, f64)> {
         let frame = options.frame.unwrap_or(0);
         let (first, rate) = match self {
@@ -198,14 +198,14 @@ impl Input {
             Self::Groom(groom) => {
                 let (start, rate) = (groom.start()?, groom.frame_rate()?);
                 let first = start.map_or(0, |start| (start * rate).round() as i32);
-                // A number that no shot has is a program's way of saying none.
+                // Programs use an impossible number to say none.
                 (if check_first_frame("", first).is_ok() { first } else { 0 }, rate)
             }
         };
         Ok((first.saturating_add_unsigned(frame), rate))
     }
 
-    /// Where `pose` puts its hair, in the space of the file that it came from.
+    /// The transform of hair under `pose`, in the space of the file that it came from.
     fn world_from_hair(&self, pose: &Pose) -> DAffine3 {
         let Self::Cache(cache) = self else { return DAffine3::IDENTITY };
         let world_from_head = Origin::world_from_head(cache.header().origin.as_ref(), pose);
@@ -214,16 +214,16 @@ impl Input {
         DAffine3::from_mat4(export.parent(&world_from_head))
     }
 
-    /// Its motion, where one frame is all that is kept of it.
+    /// Its motion, if only one frame of it is kept.
     fn lost_motion(&mut self, options: &ConvertOptions) -> Result<Option<String>> {
         let Self::Groom(groom) = self else { return Ok(None) };
         let (frames, kept) = (groom.frames()?, options.frame.unwrap_or(0));
         let input = options.input.display();
-        Ok((frames > 1).then(|| format!("motion: it is frame {kept} of the {frames} in {input}")))
+        Ok((frames > 1).then(|| format!("motion: only frame {kept} of the {frames} in {input} is kept")))
     }
 }
 
-/// Refuses a frame that the input does not reach.
+/// Refuses a frame that the input does not have.
 fn check_frame(input: &Path, frame: u32, frames: u64) -> Result<()> {
     if u64::from(frame) < frames {
         return Ok(());
@@ -235,7 +235,7 @@ fn check_frame(input: &Path, frame: u32, frames: u64) -> Result<()> {
     Err(Error::refused(format!("{}: --frame {frame}: {has}", input.display())))
 }
 
-/// Hair that stands still, or one frame of it.
+/// Hair that does not move, or one frame of it.
 fn one_frame(options: &ConvertOptions, mut input: Input, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     let (hair, pose) = input.read(options)?;
@@ -280,18 +280,18 @@ fn finish(options: &ConvertOptions, losses: Vec<String>, holds: String, watch: &
     watch.told(Told::Wrote { file: options.output.clone(), holds: Some(holds) });
 }
 
-/// Unit and up axis, where the output says nothing of them.
+/// Unit and up axis, if the output cannot declare them.
 fn unsaid_space(options: &ConvertOptions, DeclaredSpace { unit, up }: DeclaredSpace) -> Vec<String> {
     if exchange::is_usd(&options.output) {
         return Vec::new();
     }
     let unit = unit.filter(|unit| unit.cm != 1.0);
     let up = up.filter(|&up| up != Axis::PlusY);
-    let unit = unit.map(|unit| format!("its unit: give hair.unit = {} where it is read", unit.cm));
-    unit.into_iter().chain(up.map(|up| format!("its up axis: give hair.up = \"{up}\" where it is read"))).collect()
+    let unit = unit.map(|unit| format!("its unit: set hair.unit = {} when you read it", unit.cm));
+    unit.into_iter().chain(up.map(|up| format!("its up axis: set hair.up = \"{up}\" when you read it"))).collect()
 }
 
-/// Unit and up axis of the input: as it says itself, or else as the options do.
+/// Unit and up axis of the input: as it declares, or else from the options.
 fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpace> {
     if let (Some(given), Some(stated)) = (options.unit, in_file.unit)
         && (given.cm - stated.cm).abs() > 1e-6 * stated.cm
@@ -299,11 +299,11 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
         return Err(Error::refused(format!(
             "{}: --unit {}: the file already has {stated}; leave out --unit",
             options.input.display(),
-            // As it is typed: a name, or a number alone.
+            // As typed: a name, or a bare number.
             given.to_string().trim_end_matches(" cm"),
         )));
     }
-    // That of an archive is an agreement, and is not in the file.
+    // Alembic's unit is a convention, and not in the file.
     let stated_up = in_file.up.filter(|_| exchange::is_usd(&options.input));
     if let Some(up) = stated_up.filter(|&up| options.z_up && up != Axis::PlusZ) {
         let input = options.input.display();
@@ -323,33 +323,32 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
     Ok(said)
 }
 
-/// Where imported hair came from, and goes back to.
+/// The file of imported hair, to whose space it returns.
 fn placement(cache: &Reader) -> Option<Placement> {
     cache.header().origin.as_ref().map(|origin| origin.placement)
 }
 
-/// The space of that file; of hair that was grown, centimetres, y up.
+/// The space of that file; for grown hair, centimetres, y up.
 fn space_of(cache: &Reader) -> DeclaredSpace {
     let Placement { unit, up, .. } = placement(cache).unwrap_or_default();
     DeclaredSpace { unit: Some(unit), up: Some(up) }
 }
 
-/// The curves that a layer lies over. Refuses what is not known to be the groom that the cache was made from.
+/// The curves that a layer covers. Refuses a groom that is not known to be the one of the cache.
 fn under_layer<'c>(options: &ConvertOptions, prim: &str, cache: &'c Reader) -> Result<&'c CurvePrim> {
     let header = cache.header();
     let points = header.starts.last().map_or(0, |&n| n as usize);
     let fits = |in_file| exchange::check_layer(in_file, points).map_err(|e| e.in_file(&options.output));
     let origin = header.origin.as_ref();
     fits(origin.map(|origin| origin.points))?;
-    let Some(origin) = origin else { return Err(Error::refused("hair that was grown has no groom")) };
+    let Some(origin) = origin else { return Err(Error::refused("--export-layer: grown hair has no groom")) };
     let curves = origin.groom.under_layer(prim)?;
-    // Curves of a single point are none that are read.
+    // Curves of a single point are not read.
     fits(Some(curves.points))?;
     Ok(curves)
 }
 
-/// Every frame of a cache below the moving head, in the space of the file that the hair came from; hair that was grown
-/// is in centimetres, y up.
+/// Every frame of a cache below the moving head, in the space of the hair's file; grown hair is in centimetres, y up.
 fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     let layer = options.layer.as_deref();
@@ -369,7 +368,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     place::room(output, exchange::least_bytes(output, &export, frames, layer.is_some()), watch)?;
     let mut sink = exchange::sink(output, export, layer)?;
     let mut strands = cache.header().strands();
-    // The header of a cache holds fewer frames than that.
+    // The header of a cache has fewer frames than that.
     let last = u32::try_from(frames.saturating_sub(1)).unwrap_or(u32::MAX);
     let mut head_moves = false;
     each_frame(watch, "converting", 0..=last, |frame| {
@@ -388,7 +387,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     Ok(())
 }
 
-/// Every frame of a layer or archive as it is, in its own unit and axes.
+/// Every frame of a layer or archive unchanged, in its own unit and axes.
 fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut dyn Watch) -> Result<()> {
     let output = options.output.as_path();
     let in_file = groom.declared_space()?;

@@ -13,10 +13,10 @@ use crate::scene::Scene;
 use crate::told::Told;
 use crate::watch::Watch;
 
-/// Strands by which a scene is tried first, which is quick where it is refused.
+/// Strands with which a scene is tried first, for a quick refusal.
 const TRIED: usize = 300;
 
-/// Strands that a shard has at the most unless a number of shards is given.
+/// Most strands in a shard, unless a number of shards is given.
 const STRANDS_A_SHARD: usize = 100_000;
 
 /// Options of [`farm`].
@@ -77,7 +77,7 @@ pub fn farm(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Resul
     Ok(())
 }
 
-/// Refuses pictures that would be no movie in the end.
+/// Refuses pictures that cannot become a movie.
 fn check_movie(scene: &Scene) -> Result<()> {
     if !scene.output.movie {
         return Ok(());
@@ -104,7 +104,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     }
     let (last, movie, file) = (scene.motion.frames, scene.output.movie, from_root(scene.file())?);
     let built = super::build(scene, Shown::AtMost(options.strands.unwrap_or(TRIED).min(TRIED)), watch)?;
-    // Refuses what cannot be stepped.
+    // Refuses a scene that cannot be stepped.
     built.simulation()?;
     let strands = Shown::of(
         options.strands.map_or(Shown::All, Shown::First),
@@ -117,7 +117,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
         return Err(Error::refused(line));
     }
     if strands > TRIED {
-        // A short strand among the others bears less.
+        // A short strand among the others tolerates less force.
         built.changed_to(built.scene.clone(), Shown::AtMost(strands.min(STRANDS_A_SHARD)))?.simulation()?;
     }
     super::present(&built, watch);
@@ -135,7 +135,7 @@ fn plan(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Result<Pl
     })
 }
 
-/// A path as every machine of a farm may take it.
+/// A path in a form for every machine of a farm.
 fn from_root(path: &Path) -> Result<PathBuf> {
     let path = std::path::absolute(path).map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
     if path.to_str().is_none() {

@@ -19,7 +19,7 @@ use crate::watch::Watch;
 /// A scene that cannot be built, or a place or format that cannot be written.
 pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -> Result<()> {
     place::file(output)?;
-    // Of no hair nothing is lost, but a name that no hair is written under is refused.
+    // Without hair nothing is lost, but an invalid name is refused.
     hair::losses(output, &nabiki::Hair::default())?;
     place::not_inputs(&[output], &scene.inputs())?;
     let built = super::build(scene, shown, watch)?;

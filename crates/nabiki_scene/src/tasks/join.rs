@@ -28,7 +28,7 @@ pub fn join(files: &[PathBuf], output: &Path, watch: &mut dyn Watch) -> Result<(
     let strands = header.starts.len() - 1;
     let mut writer = Writer::create(output, &header, frames)?;
     drop(header);
-    // The header of a cache holds fewer frames than that.
+    // The header of a cache has fewer frames than that.
     let last = u32::try_from(frames - 1).unwrap_or(u32::MAX);
     each_frame(watch, "joining", 0..=last, |n| {
         let mut head = None;
@@ -73,7 +73,7 @@ impl OpenPiece {
         Ok(Self { reader, piece })
     }
 
-    /// Why this is no shard of the motion that `first` is of.
+    /// Why this is not a shard of the motion of `first`.
     fn differs_from(&self, first: &Self) -> Option<String> {
         let (mine, other) = (&self.piece, &first.piece);
         let (header, others) = (self.reader.header(), first.reader.header());
@@ -139,19 +139,19 @@ fn sorted(files: &[PathBuf]) -> Result<Vec<OpenPiece>> {
     }
 }
 
-/// The first number that no piece has.
+/// The first number without a piece.
 fn first_missing(pieces: &[OpenPiece]) -> Option<Shard> {
     let of = pieces[0].piece.shard.of();
     let have = |number: u32| pieces.binary_search_by_key(&number, |piece| piece.piece.shard.number()).is_ok();
     (1..=of).find(|&number| !have(number)).and_then(|number| Shard::new(number, of).ok())
 }
 
-/// Names a shard that is missing, and the command that makes it. `files`: those given that are not there.
+/// The error for a missing shard, with the command that makes it. `files`: given files that do not exist.
 fn missing_shard(first: &OpenPiece, shard: Shard, files: &[&PathBuf]) -> Error {
     let named = format!("{}_of_{}.nabiki", shard.number(), shard.of());
     let given = files.iter().find(|file| file.ends_with(&named)).or(files.first());
     let file = given.map_or_else(|| first.reader.path().with_file_name(named), |file| (*file).clone());
-    // The file that says the command may come from anywhere, and whoever reads it will paste it.
+    // The command comes from a file of unknown origin, and the reader will paste it into a shell.
     let begins = match &first.piece.command {
         command if shell::is_command(command, &["nabiki", "simulate"]) => command.clone(),
         _ => "nabiki simulate SCENE".to_owned(),

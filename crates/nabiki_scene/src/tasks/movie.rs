@@ -89,7 +89,7 @@ fn numbered(given: &[PathBuf]) -> Result<Vec<(u32, PathBuf)>> {
         }
     }
     frames.sort();
-    // A picture of --frame has another name than those of --frames, in a folder of theirs, and may fill a gap among them.
+    // A picture of --frame has another name than those of --frames, which are in their own folder, and may fill a gap among them.
     let mut of_folder = BTreeMap::new();
     for (_, b) in &frames {
         let a = *of_folder.entry(b.parent()).or_insert(b);
@@ -112,12 +112,12 @@ fn number(file: &Path) -> Option<u32> {
     stem[film(file)?.len()..].parse().ok()
 }
 
-/// What stands before the number in a file's name.
+/// The part of a file's name before the number.
 fn film(file: &Path) -> Option<&str> {
     Some(file.file_stem()?.to_str()?.trim_end_matches(|c: char| c.is_ascii_digit()))
 }
 
-/// Refuses a film in which frames are missing.
+/// Refuses a film with missing frames.
 fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     let Some((first, _)) = frames.first() else {
         return Err(Error::refused("no frames given: name numbered PNG files, or a folder of them"));
@@ -150,7 +150,7 @@ fn whole(frames: &[(u32, PathBuf)], options: &MovieOptions) -> Result<()> {
     }
 }
 
-/// The command that draws frames of the film that `file` is of, beside it.
+/// The command that draws frames of the film of `file`, beside it.
 fn drawing(file: &Path, (from, through): (u32, u32), options: &MovieOptions) -> String {
     let mut words = vec!["nabiki".to_owned(), "render".to_owned()];
     let scene = options.scene.as_ref();
@@ -176,7 +176,7 @@ fn drawing(file: &Path, (from, through): (u32, u32), options: &MovieOptions) -> 
 /// The size of all pictures, which a movie can have.
 fn one_size(files: &[PathBuf]) -> Result<[u32; 2]> {
     let size_of = |file: &Path| -> Result<[u32; 2]> {
-        // Refuses what is no regular file, or not the file itself.
+        // Refuses special files and links.
         nabiki_io::input::open(file)?;
         Ok(png::read_size(file)?)
     };

@@ -21,13 +21,13 @@ use crate::template::template;
 use crate::told::Told;
 use crate::watch::Watch;
 
-/// Strands that show that a new scene can be built.
+/// Number of strands that show whether a new scene can be built.
 const TRIED: usize = 50;
 
-/// Vertices within the head ellipsoid, or as little outside it as this value of its function says, are the skull's.
+/// Vertices inside the head ellipsoid, or outside it up to this value of its function, belong to the skull.
 const SKULL: f32 = 0.3;
 
-/// Clips that are named of many.
+/// Most clips that are listed.
 const MOST_NAMED: usize = 6;
 
 /// Options of [`new`].
@@ -58,12 +58,12 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     place::not_inputs(&[path], &inputs)?;
     super::reading(inputs, watch);
     let mut template = template(path, options.head.as_deref(), &options.groups, options.hair.as_deref())?;
-    // Of hair that is grown a few strands tell enough; in a file any may be the shortest.
+    // For grown hair a few strands suffice; in a file any may be the shortest.
     let tried = if options.hair.is_some() { Shown::All } else { Shown::AtMost(TRIED) };
     let built = Scene::parse(&template.text, path, &[])?.build(tried)?;
     built.simulation()?;
     if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.groom.hair)) {
-        // As thick to the tip, or thinner all the way.
+        // Equally thick to the tip, or thinner along the whole strand.
         let thins =
             if tip < 0.95 { format!(", tip = {}, taper = 1.0", decimal(tip, 2)) } else { ", tip = 1.0".to_owned() };
         let look = format!("{{ width = {}{thins} }}", decimal(root, 2));
@@ -92,7 +92,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     Ok(())
 }
 
-/// A head that moves in its file: whether hair shall follow it is the scene's to say.
+/// The head moves in its file; whether hair should follow is for the scene to say.
 fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     let HeadSource::Imported(head) = &built.scene.head.source else { return Ok(None) };
     let file = built.scene.resolve(&head.mesh);
@@ -103,7 +103,7 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     let word = |text: &str| toml::Value::String(text.to_owned());
     let named = head.mesh.display();
     let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.model.placement.facing);
-    // An archive does not say its unit.
+    // An archive does not declare its unit.
     let unit = if exchange::is_alembic(&head.mesh) {
         format!(", unit_cm = {}", built.model.placement.unit.cm)
     } else {
@@ -114,7 +114,7 @@ fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
     Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
 }
 
-/// The same of a head in a glTF: what carries its skull may be a joint of its skin.
+/// The same for a head in a glTF file: its skull may be carried by a joint of its skin.
 fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Result<Option<Advice>> {
     let place = built.model.placement.head_from_file();
     let is_skull = |p: Vec3| built.model.head.ellipsoid.value(place.transform_point3(p)) <= SKULL;
@@ -136,8 +136,8 @@ fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Resu
     Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
 }
 
-/// How thick the hair of a file is at most of its roots (cm), and its tips in parts of that; none where it does not say so, or as no
-/// picture has it.
+/// Typical width of a file's hair at the roots (cm), and at the tips as a part of that; none if the file has no widths,
+/// or unusable ones.
 fn thickness(hair: &Hair) -> Option<[f32; 2]> {
     let median = |mut all: Vec<f32>| {
         all.sort_unstable_by(f32::total_cmp);

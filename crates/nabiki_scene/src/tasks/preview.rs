@@ -58,8 +58,8 @@ pub fn preview(scene: Scene, shown: Shown, folder: &Path, cache: Option<&Path>, 
     Ok(())
 }
 
-/// That all strands of a hair file would be refused where those shown are not: one that is shorter than these may be among them.
-/// Grown hair would have to be grown whole to know.
+/// That all strands of a hair file would be refused although those shown are not: a shorter one may be among them. For
+/// grown hair, all of it would have to be grown to know.
 fn whole_is_refused(built: &BuiltScene) -> Result<Option<Advice>> {
     let (shown, all) = (built.strands().len(), built.groom.of_scene);
     if built.scene.hair.imported().is_none() || shown == all {
@@ -72,7 +72,8 @@ fn whole_is_refused(built: &BuiltScene) -> Result<Option<Advice>> {
     Ok(Some(Advice::new(seen)))
 }
 
-/// A smaller picture of thicker hair: each strand stands for `share` of them, but is not drawn as thick as rope.
+/// A smaller picture with thicker hair: each strand represents several (the share drawn is `share`), but not as thick
+/// as rope.
 fn small(picture: &Picture, share: f32) -> Picture {
     let mut small = picture.clone();
     let factor = (LONGER_SIDE as f32 / picture.size[0].max(picture.size[1]) as f32).min(1.0);

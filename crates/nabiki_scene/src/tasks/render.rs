@@ -52,7 +52,7 @@ impl Pictures {
     /// Largest number of pictures of a turntable. All views are computed before the first is drawn.
     pub const MOST_PICTURES: u32 = 100_000;
 
-    /// Refuses frames that are not there.
+    /// Refuses frames that do not exist.
     fn check(self, last: u32) -> Result<()> {
         let reaches = format!("the last frame is motion.frames = {last}");
         match self {
@@ -81,7 +81,7 @@ impl Pictures {
 pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path, watch: &mut dyn Watch) -> Result<()> {
     options.pictures.check(scene.motion.frames)?;
     let mut scene = scene;
-    // A run of frames is for a movie, which is made of PNG files, unless the scene wants others alone.
+    // A run of frames is for a movie, which is made from PNG files, unless the scene wants only others.
     if matches!(options.pictures, Pictures::Run(..)) && (scene.output.movie || !scene.output.exr_frames) {
         scene.output.png_frames = true;
     }
@@ -92,7 +92,7 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     let scene = &built.scene;
     match options.motion {
         None => super::advise(built.advice(), watch),
-        // What is to be said of the hair and of what moves it was said when that was done.
+        // Hair and motion were reported when the motion was made.
         Some(_) => super::advise(within_the_head(&built).into_iter().chain(of_pictures(scene)), watch),
     }
     let mut folders = Folders::default();
@@ -137,7 +137,7 @@ pub fn render(scene: Scene, shown: Shown, options: &RenderOptions, folder: &Path
     Ok(())
 }
 
-/// Draws `frame` in `pictures` steps from all around.
+/// Draws `frame` in `pictures` steps all the way around.
 fn turntable(
     built: &BuiltScene,
     (frame, pictures): (u32, u32),

@@ -46,7 +46,7 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     Ok(())
 }
 
-/// Frames that are passed on to files as they are asked for.
+/// Frames that are written to files as they are read.
 struct Exported<'a, 'b, F> {
     frames: F,
     built: &'a BuiltScene,

@@ -67,7 +67,7 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     }
     let mut folders = Folders::default();
     if let (Some(cache), Some(_)) = (cache, &options.shard) {
-        // Nobody goes ahead of the tasks of a farm.
+        // On a farm, no earlier task creates the folder.
         folders.make(folder_of(cache), "choose another name")?;
     }
     match cache {
@@ -104,7 +104,7 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
             }
             exports.frame(n, strands, &built.pose(n))
         };
-        // A disk takes one thread, and most of the time.
+        // The disk takes one thread, and most of the time.
         let (written, ()) = rayon::join(write, || summary.add(&built, n, strands));
         written
     })?;

@@ -64,7 +64,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let last = list.iter().map(|wish| wish.frame).max().unwrap_or(0);
     let ease = built.scene.field.wind.ease;
     let (unknowns, held) = free.within_reach(built.forces.intervals(), ease, &unknowns, last).map_err(in_file)?;
-    // Nobody has asked for those that are free because nothing is said.
+    // Unknowns that are free by default were not requested.
     let said = held.into_iter().filter(|_| wishes.unknowns.is_some());
     super::advise(said.map(Advice::new), watch);
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
@@ -84,7 +84,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
         Ok((scene, report))
     };
     let (mut scene, mut report) = answer(&built, list.clone(), watch)?;
-    // Hair that is not shown may bear less.
+    // Hair that is not shown may tolerate less force.
     if built.groom.ids.len() < built.groom.of_scene {
         let whole = built.changed_to(scene.clone(), Shown::All)?;
         if whole.simulation().is_err() {
@@ -95,7 +95,7 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     Ok((scene, Solved { report, names, unknowns, strands: strands.len(), seconds }))
 }
 
-/// Wishes about `some` of the strands of `whole`, as wishes about `whole`: the same hair has another place there.
+/// Wishes for `some` of the strands of `whole`, converted to wishes for `whole`, where the same hair has other indices.
 fn among(whole: &BuiltScene, some: &BuiltScene, mut wishes: Vec<Wish>) -> Vec<Wish> {
     let places: HashMap<u32, u32> = whole.groom.ids.iter().copied().zip(0..).collect();
     for node in wishes.iter_mut().flat_map(|wish| &mut wish.nodes) {
@@ -117,7 +117,7 @@ fn searched(mut solver: Solver, search: &Search, watch: &mut dyn Watch) -> Resul
     if cancelled { Err(Error::Cancelled) } else { Ok(report) }
 }
 
-/// Refuses a place that cannot be written, or from which the files that the scene names are not found.
+/// Refuses a place that cannot be written, or from which the scene's files would not be found.
 fn check_place(output: &Path, inputs: &[PathBuf], scene: &Scene) -> Result<()> {
     place::scene(output)?;
     place::not_inputs(&[output], inputs)?;
@@ -133,11 +133,11 @@ fn check_place(output: &Path, inputs: &[PathBuf], scene: &Scene) -> Result<()> {
     Ok(())
 }
 
-/// The strands that are built: those among which locks are looked for, and those that are named.
+/// The strands to build: those in which locks are searched for, and those that are named.
 fn shown(file: &WishFile, strands: usize, scene: &Scene) -> Result<Shown> {
     match (&scene.hair.source, file.wishes.largest_strand()) {
         (_, None) => Ok(Shown::AtMost(strands)),
-        // Imported strands are numbered as they follow one another in the file, and those of a preview are any of them.
+        // Imported strands are numbered in the order of the file, and a preview may show any of them.
         (HairSource::Imported(_), Some(_)) => Ok(Shown::All),
         (HairSource::Grown(_), Some(largest)) => Ok(Shown::AtMost(strands.max(largest as usize + 1))),
     }

@@ -51,7 +51,7 @@ impl<R: Read + Seek> CrateReader<R> {
         let list = number(&header[16..24]);
         let count = number(&reader.bytes(list, 8)?);
         if count > 64 {
-            return Err(Problem(format!("claims {count} tables, of which USD has 6")));
+            return Err(Problem(format!("claims {count} tables, but USD has 6")));
         }
         let mut sections = HashMap::new();
         for entry in reader.bytes(list + 8, 32 * count)?.chunks_exact(32) {
@@ -112,7 +112,7 @@ impl<R: Read + Seek> CrateReader<R> {
                 .collect();
             budget = budget
                 .checked_sub(named.len() + 1)
-                .ok_or_else(|| Problem::new("names its fields over and over: it must be damaged"))?;
+                .ok_or_else(|| Problem::new("repeats its fields: it must be damaged"))?;
             let field = |wanted: &str| named.iter().find(|(name, _)| *name == wanted).map(|&(_, rep)| rep);
             let word = |rep: Option<u64>| rep.map(|r| reader.token(Rep(r).payload())).unwrap_or_default();
             let name = reader.token(node.token.into());
@@ -382,7 +382,7 @@ impl<R: Read + Seek> CrateReader<R> {
                 }
                 code => Err(Problem(format!("has an array packed in an unknown way ({code})"))),
             },
-            Scalar::U8 => Err(Problem::new("has packed bytes, which no version writes")),
+            Scalar::U8 => Err(Problem::new("has packed bytes, which no version of USD writes")),
         }
     }
 

@@ -86,7 +86,7 @@ pub fn tokens(table: &mut Table) -> Result<Vec<Name>, Problem> {
     let tokens: Vec<Name> =
         words.split(|&b| b == 0).take(count).map(|w| Name::from(&*String::from_utf8_lossy(w))).collect();
     if tokens.len() < count {
-        return Err(Problem(format!("has {} words where it claims {count}", tokens.len())));
+        return Err(Problem(format!("has {} words but claims {count}", tokens.len())));
     }
     Ok(tokens)
 }

@@ -140,7 +140,7 @@ impl<T: Number> Numbers<T> {
                     Err(_) if word == "None" => {}
                     Err(_) => {
                         let number = T::from_word(word);
-                        self.found.push(number.ok_or_else(|| Problem(format!("\"{word:.40}\" among numbers")))?);
+                        self.found.push(number.ok_or_else(|| Problem(format!("\"{word:.40}\" is not a number")))?);
                     }
                 }
             }
@@ -155,7 +155,7 @@ impl<T: Number> Numbers<T> {
 }
 
 fn unmatched() -> Problem {
-    Problem::new("parentheses that do not match")
+    Problem::new("its parentheses do not match")
 }
 
 /// The number at the beginning of `text` and its length, where it is a plain decimal one.

@@ -29,7 +29,7 @@ pub fn parse(from: &mut dyn Source, length: u64, budget: &Budget) -> Result<Pars
         if next == b'}' {
             text.pass();
             if open.pop().is_none() {
-                return Err(text.problem("a closing brace too many"));
+                return Err(text.problem("a closing brace has no opening one"));
             }
             continue;
         }
@@ -53,7 +53,7 @@ pub fn parse(from: &mut dyn Source, length: u64, budget: &Budget) -> Result<Pars
                 text.expect(b'{')?;
                 open.push(prims.len());
                 if open.len() > DEEPEST {
-                    return Err(text.problem("prims nested deeper than any scene is"));
+                    return Err(text.problem("prims are nested too deep"));
                 }
                 prims.push(prim);
             }
@@ -67,7 +67,7 @@ pub fn parse(from: &mut dyn Source, length: u64, budget: &Budget) -> Result<Pars
                 text.expect(b'=')?;
                 text.skip_value()?;
             }
-            _ if open.is_empty() => return Err(text.problem(&format!("\"{word:.40}\" where a prim should begin"))),
+            _ if open.is_empty() => return Err(text.problem(&format!("\"{word:.40}\" does not begin a prim"))),
             _ => property(&mut text, word, &mut prims[open[open.len() - 1]], &mut types, budget)?,
         }
     }
@@ -126,7 +126,7 @@ fn note_details(text: &mut Scanner<'_>, prim: &mut PrimInfo) -> Result<(), Probl
             _ => text.pass(),
         }
     }
-    Err(text.problem("a parenthesis that is never closed: is the file whole?"))
+    Err(text.problem("a parenthesis is never closed: is the file complete?"))
 }
 
 /// Whether a word in quotation marks is in the list that follows.
@@ -179,7 +179,7 @@ fn layer_metadata(text: &mut Scanner<'_>, into: &mut HashMap<Name, Handle>) -> R
                 let value = text.skip_value()?;
                 into.insert(name.into(), value);
             }
-            None => return Err(text.problem("a parenthesis that is never closed: is the file whole?")),
+            None => return Err(text.problem("a parenthesis is never closed: is the file complete?")),
         }
     }
 }
@@ -207,12 +207,12 @@ fn property(
             Some(_) => words.push(text.word()?),
         }
         if words.len() > 8 {
-            return Err(text.problem("a property of too many words"));
+            return Err(text.problem("a property has too many words"));
         }
     }
     let is_relation = words.iter().any(|w| w == "rel");
     let [.., type_name, name] = &words[..] else {
-        return Err(text.problem(&format!("\"{:.40}\" where a property should stand", words[0])));
+        return Err(text.problem(&format!("\"{:.40}\" is not a property", words[0])));
     };
     let (name, timed) = match name.strip_suffix(".timeSamples") {
         Some(name) => (name, true),
@@ -319,7 +319,7 @@ pub fn numbers<T: Number>(from: &mut dyn Source, (start, length): Handle, budget
         let whole = match window.iter().rposition(|&b| !is_part(b)) {
             _ if left == 0 => window.len(),
             Some(last) => last + 1,
-            None => return Err(Problem(format!("byte {start}: a number of more than {WINDOW} digits"))),
+            None => return Err(Problem(format!("byte {start}: a number has more than {WINDOW} digits"))),
         };
         numbers.read(&window[..whole]).map_err(|e| Problem(format!("byte {start}: {e}")))?;
         // Digits with nothing between them but a comma take less than the numbers.

@@ -133,7 +133,7 @@ impl<'a> Scanner<'a> {
             }
             starred = byte == b'*';
         }
-        Err(self.problem("a comment that is never closed"))
+        Err(self.problem("a comment is never closed"))
     }
 
     /// Passes over the byte that [`peek`](Self::peek) gave.
@@ -214,7 +214,7 @@ impl<'a> Scanner<'a> {
                 return Ok(String::from_utf8_lossy(&text).into_owned());
             }
         }
-        Err(self.problem("quotation marks that are never closed"))
+        Err(self.problem("quotation marks are never closed"))
     }
 
     /// The byte that at most `most` further digits stand for, after one worth `value`.
@@ -259,7 +259,7 @@ impl<'a> Scanner<'a> {
         let mut closing = if opening == 2 { 3 } else { 0 };
         let mut escaped = false;
         while closing < 3 {
-            let Some(byte) = self.here()? else { return Err(self.problem("a path that is never closed")) };
+            let Some(byte) = self.here()? else { return Err(self.problem("a path is never closed")) };
             self.pass();
             // Of three after a backslash none closes.
             for _ in 0..2 {
@@ -291,7 +291,7 @@ impl<'a> Scanner<'a> {
                 return Ok(());
             }
         }
-        Err(self.problem("a path that is never closed"))
+        Err(self.problem("a path is never closed"))
     }
 
     /// Passes over brackets and all that is in them. Parentheses in a list are left to whoever reads its values: most
@@ -307,7 +307,7 @@ impl<'a> Scanner<'a> {
                 Some(b'(' | b')') if in_list => self.pass(),
                 Some(bracket @ (b'[' | b'(' | b'{')) => {
                     if open.len() == DEEPEST {
-                        return Err(self.problem("brackets nested deeper than any value is"));
+                        return Err(self.problem("brackets are nested too deep"));
                     }
                     open.push(bracket);
                     self.pass();
@@ -321,7 +321,7 @@ impl<'a> Scanner<'a> {
                 }
                 Some(b'@') => self.skip_asset()?,
                 Some(_) => self.pass(),
-                None => return Err(self.problem("a bracket that is never closed: is the file whole?")),
+                None => return Err(self.problem("a bracket is never closed: is the file complete?")),
             }
             if open.is_empty() {
                 return Ok(());

@@ -1,4 +1,4 @@
-//! Bodies in one frame, as the fast step meets them: one node at a time, and only those that may touch.
+//! Bodies in one frame, for the fast step: one node at a time, and only nodes that may touch.
 
 use glam::{Affine3A, Vec3, Vec3A};
 
@@ -8,26 +8,26 @@ use crate::dynamics::FrameInput;
 use crate::dynamics::row::{LANES, PointRow};
 use crate::obstacle::{Obstacle, Reading, beyond};
 
-/// Times that a segment is turned along the gradient before another way is tried.
+/// Most turns of a segment along the gradient before another way is tried.
 pub(in crate::dynamics) const PUSHES: usize = 7;
 
-/// Times that a segment is turned out of all bodies, one after the other, where there are several.
+/// Most turns of a segment out of all bodies, one after the other, if there are several.
 pub(in crate::dynamics) const ROUNDS: usize = 24;
 
-/// Directions that are tried from there to the gradient where no turn along it is found.
+/// Directions tried from there to the gradient if no turn along it is found.
 pub(in crate::dynamics) const FAN: usize = 4;
 
-/// Cosine and sine of the most that one of those turns may be (a tenth of a radian): what is curved is no plane far on.
+/// Cosine and sine of the largest of these turns (a tenth of a radian): a curved surface is not a plane far away.
 pub(in crate::dynamics) const TURN: [f32; 2] = [0.995_004_2, 0.099_833_42];
 
-/// How much deeper than its clearance a node may stay (cm): some roundings of a distance.
+/// How much deeper than its clearance a node may stay (cm): a few roundings of a distance.
 pub(in crate::dynamics) const TOLERANCE_CM: f32 = 1e-4;
 
-/// Cosine of the largest turn that a push may make of a segment in a frame, where it can do with less (half a radian).
+/// Cosine of the largest turn that a push may give a segment in a frame, if a smaller one suffices (half a radian).
 pub(in crate::dynamics) const NEAR: f32 = 0.877_582_6;
 
-/// By how many times what a pressed node still goes in by a body pushes it more in the next step. A node gives way by less than a push would
-/// move it if it were alone: stiff joints hold it.
+/// Factor by which the remaining inward motion of a pressed node increases the push in the next step. Stiff joints hold
+/// a node, so it yields less than if it were alone.
 pub(in crate::dynamics) const ANSWER: f32 = 3.0;
 
 /// Distances may come out too large by a twentieth, see [`Obstacle::read`], and between the coarse samples of a filled
@@ -42,31 +42,31 @@ pub(super) struct PlacedBody {
     friction: f32,
     margin: f32,
     body_from_head: Affine3A,
-    /// Whether that changes nothing.
+    /// Whether that is the identity.
     with_head: bool,
-    /// Takes points of the body from where they are at the end of the step to where they were at its beginning, in head space; and back.
+    /// Transforms points of the body from their place at the end of the step to that at its beginning, in head space; and the inverse.
     before_from_now: Affine3A,
     now_from_before: Affine3A,
     moves: bool,
-    /// The farthest that any of it comes in its own space in the step (cm).
+    /// The largest distance that any of its points moves in its own space in the step (cm).
     bends: f32,
     /// Of the frame.
     part: f32,
-    /// How far any of it comes that hair may meet (cm).
+    /// The largest distance that any part of it within reach of hair moves (cm).
     pub closer: f32,
 }
 
-/// The end of a segment that turns about its beginning (head space, cm).
+/// The end of a segment that turns around its beginning (head space, cm).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
-    /// p_(i-1), where it is now.
+    /// The current p_(i-1).
     pub from: Vec3,
     pub length: f32,
-    /// How far p_i is kept from the skin.
+    /// Clearance of p_i from the skin.
     pub clearance: f32,
-    /// d at the beginning of the step, turned back as far as it is left behind by the head's turn.
+    /// d at the beginning of the step, turned back by the share of the head's turn that it is left behind.
     pub was: Vec3,
-    /// What p_i is moved by in the step besides: by the segments before this one, and by what the head's turn leaves behind.
+    /// The other motion of p_i in the step: of the segments before this one, and what the head's turn leaves behind.
     pub carried: Vec3,
 }
 
@@ -74,25 +74,25 @@ pub(super) struct Touch {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moving {
     pub at: Vec3,
-    /// By how much the head's turn has left it behind in this step.
+    /// How far the head's turn has left it behind in this step.
     pub shifted: Vec3,
     pub velocity: Vec3,
     pub acceleration: Vec3,
-    /// By how much a body pushed it outward in the step before, and by what it still went in.
+    /// How strongly a body pushed it outward in the step before, including what it still moved inward.
     pub pressed: f32,
 }
 
-/// What a body does to a node (cm and frames): how it accelerates it, by how much of that outward, and how far the node is from touching it.
+/// The effect of a body on a node (cm and frames): its acceleration, the outward part of it, and the distance from touching.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Push {
     pub force: Vec3,
     pub outward: f32,
     pub clear: f32,
-    /// How far it is from touching at least, see [`gap`].
+    /// A lower bound of its distance from touching, see [`gap`].
     pub gap: f32,
 }
 
-/// Direction of a segment, and what it turns by in a step (rad).
+/// Direction of a segment, and its turn in a step (rad).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Going {
     pub direction: Vec3,
@@ -100,21 +100,21 @@ pub(super) struct Going {
 }
 
 impl Going {
-    /// Without what of the increment goes along the direction.
+    /// Without the part of the increment along the direction.
     fn new(direction: Vec3, increment: Vec3) -> Self {
         Self { direction, increment: increment - increment.dot(direction) * direction }
     }
 }
 
-/// How far at least a point at a sampled distance is from touching what it keeps clear of; below 0 where it does. What may be off is the
-/// distance, and not only what it is more than the clearance; inside, where samples of other fineness meet, nothing is sure.
+/// A lower bound of how far a point at a sampled distance is from touching; negative if it touches. The whole distance may be off, not
+/// only its excess over the clearance. Inside, where samples of different fineness meet, nothing is certain.
 #[inline(always)]
 pub(super) fn gap(distance: f32, clearance: f32) -> f32 {
     let (inward, sure) = (distance - clearance, SURE * distance - clearance.max(0.0));
     if inward < 0.0 { inward } else { sure.max(0.0) }
 }
 
-/// A surface of a body, as contact is compiled for it.
+/// A surface of a body, for which contact is compiled.
 enum Skin<'a> {
     Mesh(&'a SkinDistance),
     Other(&'a dyn Obstacle),
@@ -130,8 +130,8 @@ fn skin(body: &Body, surface: Surface) -> Skin<'_> {
 }
 
 impl PlacedBody {
-    /// Body number `b` at the end of a step of a frame: its number, from 1 on, and how many there are. `hair`: a ball that hair does not
-    /// leave (head space, cm).
+    /// Body number `b` at the end of a step of a frame; `step` gives the step's number, from 1 on, and their count.
+    /// `hair`: a ball that hair does not leave (head space, cm).
     pub fn new(
         b: usize,
         body: &Body,
@@ -159,7 +159,7 @@ impl PlacedBody {
         placed
     }
 
-    /// The farthest that a point of the body within `radius` of `center` (head space, cm) moves in the step.
+    /// The largest distance that a point of the body within `radius` of `center` (head space, cm) moves in the step.
     fn farthest_moved(&self, center: Vec3, radius: f32) -> f32 {
         if !self.moves {
             return self.bends;
@@ -170,13 +170,14 @@ impl PlacedBody {
         (self.before_from_now.transform_point3(center) - center).length() + norm * radius + self.bends
     }
 
-    /// Where sixteen points of head space lie among the samples of a body that goes with the head.
+    /// The positions of sixteen points of head space among the samples of a body that moves with the head.
     #[inline(always)]
     pub fn places(&self, skin: &SkinDistance, [x, y, z]: &PointRow) -> Option<Places<LANES>> {
         if self.with_head { Some(skin.places([&x.0, &y.0, &z.0])) } else { None }
     }
 
-    /// How far at least the end of a segment (head space, cm) is from touching the body; below 0 where it does.
+    /// A lower bound of how far the end of a segment (head space, cm) is from touching the body; negative if it
+    /// touches.
     pub fn gap(&self, body: &Body, surface: Surface, end: Vec3, clearance: f32) -> f32 {
         match skin(body, surface) {
             Skin::Mesh(skin) => self.gap_to(skin, end, clearance),
@@ -184,7 +185,7 @@ impl PlacedBody {
         }
     }
 
-    /// Keeps a segment out of the body, and tells by how much its end went inward in the step (cm); `None` where it touches nothing.
+    /// Keeps a segment out of the body and returns how far its end moved inward in the step (cm); `None` if it touches nothing.
     #[inline(always)]
     pub fn stop(&self, body: &Body, surface: Surface, going: Going, touch: &Touch) -> Option<(Going, f32)> {
         match skin(body, surface) {
@@ -193,7 +194,7 @@ impl PlacedBody {
         }
     }
 
-    /// Turns a segment out of the body that another body has turned into it; `None` where none has.
+    /// Turns a segment out of the body after another body has turned it in; `None` if none has.
     pub fn part(&self, body: &Body, surface: Surface, going: Going, touch: &Touch) -> Option<Going> {
         match skin(body, surface) {
             Skin::Mesh(skin) => self.part_from(skin, going, touch),
@@ -201,7 +202,7 @@ impl PlacedBody {
         }
     }
 
-    /// How far a node is from touching the body at the end of the step if it goes along with it; `None` far away.
+    /// How far a node that moves with the body is from touching it at the end of the step; `None` far away.
     pub fn clear(&self, body: &Body, surface: Surface, clearance: f32, node: &Moving) -> Option<f32> {
         let in_body = self.in_body(self.taken_along(node.at));
         let reading = match skin(body, surface) {
@@ -211,8 +212,8 @@ impl PlacedBody {
         Some(reading?.distance - clearance)
     }
 
-    /// How the body pushes a node in the step: against what carries it in, against what pressed it in the step before, and by friction. With what
-    /// of that presses outward (cm a frame^2), and how far the node is from the body (cm).
+    /// The push of the body on a node in the step: against the motion inward, against what pressed it in the step before, and friction.
+    /// Also the outward pressing part (cm per frame^2), and the distance of the node from the body (cm).
     pub fn against(&self, body: &Body, surface: Surface, clearance: f32, node: &Moving) -> Option<Push> {
         match skin(body, surface) {
             Skin::Mesh(skin) => self.against_at(skin, clearance, node),
@@ -230,7 +231,7 @@ impl PlacedBody {
             of_body += self.bent(skin, in_body);
         }
         let normal = self.normal(&reading);
-        // What is too deep already is turned out, and not thrown.
+        // A node that is already too deep is turned out, not thrown out.
         let sure = self::gap(reading.distance, clearance);
         let gap = (reading.distance - clearance).max(0.0);
         let leaves = (h * node.velocity - of_body).dot(normal) + gap;
@@ -243,22 +244,22 @@ impl PlacedBody {
         let along = moved + node.shifted;
         let over = 1.0 / (h * h);
         let force = over * self.slowed(along, normal, along.dot(normal), inward);
-        // A speed is stopped once; what presses goes on to.
+        // Speed is stopped once; a pressing force continues.
         let presses = (inward - (-leaves).max(0.0)).max(0.0);
         Some(Push { force, outward: over * presses, clear: gap, gap: sure })
     }
 
-    /// Whether it stays where it is in head space, as the head does.
+    /// Whether it stays fixed in head space, as the head does.
     pub fn rests(&self) -> bool {
         !self.moves && self.bends == 0.0
     }
 
-    /// Where the body takes a point in the step that goes along with it.
+    /// Where the body takes a point that moves with it in the step.
     fn taken_along(&self, p: Vec3) -> Vec3 {
         if self.moves { self.now_from_before.transform_point3(p) } else { p }
     }
 
-    /// What a body that bends moves its point by in the step, besides the way of its own space.
+    /// The motion of a point by the bending of the body in the step, besides the motion of its space.
     fn bent(&self, skin: &(impl Obstacle + ?Sized), in_body: Vec3) -> Vec3 {
         let head_from_body = self.body_from_head.matrix3.transpose();
         Vec3::from(head_from_body * Vec3A::from(skin.moved(in_body, self.frame))) * self.part
@@ -288,10 +289,10 @@ impl PlacedBody {
             of_body += self.bent(skin, in_body);
         }
         let moved = length * going.increment + carried - of_body;
-        // A motion outward loses nothing: of 0 all that follows is 0.
+        // Outward motion loses nothing: for 0 everything below is 0.
         let inward = (-moved.dot(normal)).max(0.0);
         let change = self.slowed(moved, normal, -inward, inward);
-        // Until it touched it went on as it was.
+        // Until it touched, it moved as before.
         let touching = if inward > depth { depth / inward } else { 1.0 };
         let direction = (length * going.direction + touching * change).normalize_or(normal);
         let increment = going.increment + change / length;
@@ -307,8 +308,8 @@ impl PlacedBody {
         Some(Going::new(direction, going.increment))
     }
 
-    /// What contact makes of a motion against the body: so much `inward` is turned back, and of what goes along it friction takes its part.
-    /// `outward`: all of the motion along the normal.
+    /// The effect of contact on a motion against the body: `inward` of it is reversed, and friction takes its share of
+    /// the motion along the skin. `outward`: all of the motion along the normal.
     #[inline(always)]
     fn slowed(&self, moved: Vec3, normal: Vec3, outward: f32, inward: f32) -> Vec3 {
         let along = moved - outward * normal;
@@ -318,8 +319,8 @@ impl PlacedBody {
         inward * normal - lost * along
     }
 
-    /// The direction nearest to where a segment would go in which its end keeps its clearance. In a fold of the skin, behind
-    /// an ear, that may be far off or not be found: then the one nearest to where the segment was, for it was free there.
+    /// The direction nearest to the segment's own in which its end keeps its clearance. In a fold of the skin, behind an ear, that may be
+    /// far off or not be found: then the one nearest to the segment's old direction, which was free.
     fn pushed_out(&self, skin: &(impl Obstacle + ?Sized), direction: Vec3, touch: &Touch) -> Vec3 {
         let (pushed, depth) = self.pushed_from(skin, direction, touch);
         if depth <= TOLERANCE_CM && pushed.dot(touch.was) > NEAR {
@@ -330,7 +331,7 @@ impl PlacedBody {
             return stayed;
         }
         let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
-        // Where no turn is found so, a fan of directions from there outward.
+        // If no turn is found this way, tries a fan of directions from there outward.
         let reading = skin.read(self.in_body(touch.from + touch.length * best), self.frame);
         let normal = reading.map_or(best, |reading| self.normal(&reading));
         for step in 1..=FAN {
@@ -346,7 +347,7 @@ impl PlacedBody {
         best
     }
 
-    /// Turns a segment out along the gradient until its end keeps its clearance, and says how deep it then is.
+    /// Turns a segment out along the gradient until its end keeps its clearance, and returns its depth then.
     #[inline]
     fn pushed_from(&self, skin: &(impl Obstacle + ?Sized), mut direction: Vec3, touch: &Touch) -> (Vec3, f32) {
         let &Touch { from, length, clearance, .. } = touch;
@@ -381,8 +382,8 @@ impl PlacedBody {
     }
 }
 
-/// Turned about its beginning, the nearest way, until its end is farther out along the normal by `rise` of its length: all
-/// the way out of a plane, however steeply it points in. By [`TURN`] at the most.
+/// Turned around its beginning, the shortest way, until its end is farther out along the normal by `rise` of its
+/// length: all the way out of a plane, however steeply it points in. At most by [`TURN`].
 #[inline]
 fn turned_out(direction: Vec3, normal: Vec3, rise: f32) -> Vec3 {
     let along = direction.dot(normal);
@@ -392,7 +393,7 @@ fn turned_out(direction: Vec3, normal: Vec3, rise: f32) -> Vec3 {
     if outward >= 1.0 {
         return normal;
     }
-    // To what points straight in, all ways are alike.
+    // For a segment that points straight in, all ways are alike.
     let aside = (direction - along * normal).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
     ((1.0 - outward * outward).max(0.0).sqrt() * aside + outward * normal).normalize_or(normal)
 }

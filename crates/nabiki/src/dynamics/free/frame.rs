@@ -1,4 +1,4 @@
-//! What a frame does to a block of strands of the free form.
+//! A frame of a block of strands in the free form.
 
 use glam::Vec3;
 
@@ -76,7 +76,7 @@ impl Packed {
             let stepped = Stepped { of, bodies, h, closer };
             stepped.push(states, work);
             solve_chain::<false>(states, rows, h, work);
-            // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
+            // Joints hold a pressed node, so it does not move as pushed: tensions need not take the other nodes there.
             if !bodies.is_empty()
                 && let Some(pressed) = pressed(states)
             {
@@ -90,7 +90,7 @@ impl Packed {
         }
     }
 
-    /// Leaves hair behind by its part of the head's turn in a step.
+    /// Leaves hair behind by its share of the head's turn in a step.
     #[inline(always)]
     fn stay_behind(
         &self,
@@ -117,7 +117,7 @@ impl Packed {
         }
     }
 
-    /// Leaves in the increments of hair at rest what drives them there: roundings.
+    /// Leaves in the increments of hair at rest what drives them there: rounding errors.
     #[inline(always)]
     fn drive_at_rest(&self, block: &Block, states: &mut [FreeState], work: &mut [Work]) {
         let (rows, first) = (&self.rows[block.rows()], block.rows().start);
@@ -139,7 +139,8 @@ impl Packed {
     }
 }
 
-/// Finds the tensions, and the increments at the end of a step of `h` frames. `ANSWERED`: with how the joints answered before, see [`answer`].
+/// Finds the tensions, and the increments at the end of a step of `h` frames. `ANSWERED`: takes into account how the joints answered
+/// before, see [`answer`].
 #[inline(always)]
 fn solve_chain<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [Work]) {
     pull_taut::<ANSWERED>(states, rows, work);
@@ -149,7 +150,7 @@ fn solve_chain<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], h: 
     unwind(work);
 }
 
-/// 1 for strands that something presses, else 0; `None` where nothing presses any.
+/// 1 for pressed strands, 0 for others; `None` if none is pressed.
 #[inline(always)]
 fn pressed(states: &[FreeState]) -> Option<Row> {
     let mut most = Row([0.0; LANES]);

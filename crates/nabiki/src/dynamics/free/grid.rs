@@ -1,4 +1,4 @@
-//! Hair against hair: what the carriers leave in a grid, and what every strand feels of it.
+//! Hair against hair: what the carriers write to a grid, and what every strand reads from it.
 
 #[cfg(test)]
 mod tests;
@@ -13,7 +13,7 @@ use crate::error::SettingError;
 use crate::free_form::{NeighbourForces, Neighbours};
 use crate::strands::bounds;
 
-/// The most nodes of a grid: 128 in each direction.
+/// Most nodes of a grid: 128 in each direction.
 const MOST_NODES: u64 = 128 * 128 * 128;
 
 /// The carriers' hair in one frame, as a field: a force, and a drag against the hair's own motion.
@@ -24,32 +24,32 @@ pub(in crate::dynamics) struct Crowd {
     /// The first node (head space, cm).
     low: Vec3,
     nodes: UVec3,
-    /// The nodes about which there is hair, from the first to the last along each axis, and those of the frame before.
+    /// The nodes with hair around them, first and last along each axis, and those of the frame before.
     filled: [[UVec3; 2]; 2],
-    /// Of every point of the carriers: the length of hair that it stands for (cm).
+    /// For every point of the carriers, the length of hair that it represents (cm).
     masses: Vec<f32>,
-    /// Of every node: density at rest, in the mean of the places where there is hair.
+    /// For every node, the density at rest, relative to the mean where there is hair.
     rest: Vec<f32>,
-    /// 1 / the mean mass of a node, weighted by mass (1 / cm): what counts as a density of 1.
+    /// 1 / the mean mass of a node, weighted by mass (1 / cm): the unit of density.
     unit: f32,
-    /// Of every node: momentum and mass of the hair about it.
+    /// For every node, momentum and mass of the hair around it.
     content: Vec<Vec4>,
-    /// Of every node: density above that at rest.
+    /// For every node, the excess over the density at rest.
     excess: Vec<f32>,
-    /// Of every node: a force (x, y, z), and w, the drag in the unit of the force for each cm a frame.
+    /// For every node, a force (x, y, z), and in w the drag in the unit of the force per cm per frame.
     pull: Vec<[f32; 4]>,
 }
 
 impl Crowd {
-    /// What carriers at rest leave: no force. `points`: theirs at rest, as the stepper puts them together. `slow`: in slow motion hair goes fewer
-    /// cm a frame, and is dragged as firmly.
+    /// The grid of carriers at rest: no force. `points`: theirs at rest, as the stepper computes them. `slow`: in slow
+    /// motion hair moves fewer cm per frame, and the drag is as firm.
     ///
     /// # Errors
     /// Cells so small beside the hair's reach that the grid would not fit.
     pub fn new(neighbours: &Neighbours, slow: f32, points: &[Vec3]) -> Result<Self, SettingError> {
         let Neighbours { forces, carriers } = neighbours;
         let [low, high] = bounds(points);
-        // From any root to the length of any carrier, however it swings, and a cell about it.
+        // From any root to the length of any carrier, however it swings, plus a cell.
         let longest = carriers.lengths().fold(0.0, f32::max);
         let roots: Vec<Vec3> = carriers.iter().map(|strand| strand[0]).collect();
         let [low_root, high_root] = bounds(&roots);
@@ -59,8 +59,8 @@ impl Crowd {
         let count = nodes.as_dvec3().element_product();
         if count > MOST_NODES as f64 {
             let remedy = format!(
-                "hair that reaches {:.0} cm needs {count:.0} such cells, but at most {MOST_NODES} are allowed: give larger \
-                 ones",
+                "hair {:.0} cm across needs {count:.0} cells of this size, but at most {MOST_NODES} are allowed: make \
+                 them larger",
                 (high - low).max_element()
             );
             return Err(SettingError::new("neighbours.cell", forces.cell, remedy));
@@ -84,7 +84,7 @@ impl Crowd {
         Ok(crowd)
     }
 
-    /// Takes the density of the hair at rest, of which only an excess pushes.
+    /// Takes the density of the hair at rest; only an excess over it pushes.
     fn settle(&mut self, points: &[Vec3]) {
         let still = vec![Vec3::ZERO; points.len()];
         self.splat(points, &still);
@@ -97,15 +97,15 @@ impl Crowd {
         self.pull();
     }
 
-    /// Takes the carriers as they are now. `points` (cm), `velocities` (cm a frame): of every point of every carrier.
+    /// Reads the current carriers: `points` (cm) and `velocities` (cm per frame) of every point.
     pub fn fill(&mut self, points: &[Vec3], velocities: &[Vec3]) {
         self.splat(points, velocities);
         self.pull();
     }
 
-    /// Takes what the same carriers left in another frame, into the room that is there.
+    /// Copies the grid of the same carriers in another frame, into existing memory.
     pub fn take(&mut self, other: &Self) {
-        // Nothing is anywhere else, in either: where hair is, was, or is thrown beyond the grid to its first cell.
+        // Both are 0 everywhere else. Hair thrown beyond the grid counts in its first cell.
         for row in rows(self.nodes, self.filled[0]) {
             self.content[row].fill(Vec4::ZERO);
         }
@@ -123,7 +123,7 @@ impl Crowd {
         }
     }
 
-    /// What others may ask of it, and not what its next frame is made from: its forces, of which a copy takes little.
+    /// What others may read, without what its next frame is computed from: its forces, which are cheap to copy.
     pub fn left(&self) -> Self {
         let mut pull = vec![[0.0; 4]; self.pull.len()];
         for row in rows(self.nodes, self.around()) {
@@ -134,14 +134,14 @@ impl Crowd {
         Self { forces, masses, rest, excess, content, pull, ..*self }
     }
 
-    /// Where there is hair, or was, and one node beyond: elsewhere are no forces. Hair does not reach the outermost nodes, so those have
-    /// no neighbours to ask.
+    /// Where there is hair, or was, and one node beyond: elsewhere there are no forces. Hair does not reach the
+    /// outermost nodes, so none of these needs neighbours outside.
     fn around(&self) -> [UVec3; 2] {
         let [[a, b], [c, d]] = self.filled;
         [a.min(c).max(UVec3::splat(2)) - 1, (b.max(d) + 1).min(self.nodes - 2)]
     }
 
-    /// Spreads every point over the eight nodes about it, one after another: the sums do not depend on threads.
+    /// Spreads every point over the eight nodes around it, in sequence, so that the sums do not depend on threads.
     fn splat(&mut self, points: &[Vec3], velocities: &[Vec3]) {
         for row in rows(self.nodes, self.filled[0]) {
             self.content[row].fill(Vec4::ZERO);
@@ -164,7 +164,7 @@ impl Crowd {
         self.filled = [[first_filled, last_filled], self.filled[0]];
     }
 
-    /// From density and momentum to forces, wherever there is hair, or was, and one node beyond: elsewhere both are 0.
+    /// From density and momentum to forces, where there is or was hair and one node beyond: elsewhere both are 0.
     fn pull(&mut self) {
         let around = self.around();
         let Self { forces, nodes, rest, unit, content, excess, pull, .. } = self;
@@ -174,7 +174,7 @@ impl Crowd {
             for (((content, rest), excess), pull) in content.iter().zip(rest).zip(excess).zip(pull) {
                 let density = content.w * *unit;
                 let drag = forces.cohesion * density.min(1.0);
-                // Momentum over mass is the mean velocity; no hair, no drag.
+                // Momentum over mass is the mean velocity; without hair there is no drag.
                 let of_momentum = if content.w > 0.0 { drag / content.w } else { 0.0 };
                 *excess = (density - rest).max(0.0);
                 *pull = (content.truncate() * of_momentum).extend(drag).to_array();
@@ -196,7 +196,7 @@ impl Crowd {
         }
     }
 
-    /// The forces on sixteen points, and their drag (head space); none beyond the grid.
+    /// The forces on sixteen points, and their drag (head space); 0 beyond the grid.
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     pub fn at_row(&self, points: &PointRow, pulls: &mut [[f32; 4]; LANES]) {
@@ -212,8 +212,8 @@ impl Crowd {
         }
     }
 
-    /// The force on a point of the cell of this first node, and its drag. `FUSED`: multiplied and added at once, as the fast step does; where
-    /// no vectors are made, that would be a call for every number.
+    /// The force on a point of the cell of this first node, and its drag. `FUSED`: multiplied and added in one
+    /// operation, as the fast step does. Without vector code, that would be a call for every number.
     #[allow(clippy::needless_range_loop, reason = "one vector of four numbers")]
     #[inline(always)]
     fn between<const FUSED: bool>(&self, first: usize, [x, y, z]: [f32; 3]) -> [f32; 4] {
@@ -228,14 +228,14 @@ impl Crowd {
         pull
     }
 
-    /// What is at a node and at the next one along x.
+    /// The values at a node and at the next one along x.
     #[inline(always)]
     fn pair(&self, at: usize) -> [[f32; 4]; 2] {
         let pull = &self.pull[at..at + 2];
         [pull[0], pull[1]]
     }
 
-    /// The force on a point that stands still (head space), and what is held against its velocity.
+    /// The force on a point at rest (head space), and the drag on its velocity.
     pub fn at(&self, p: DVec3) -> (DVec3, f64) {
         let (first, t) = self.cell(p.as_vec3().to_array());
         let [x, y, z, drag] = self.between::<false>(first as usize, t).map(f64::from);
@@ -247,8 +247,8 @@ impl Crowd {
         (self.nodes.x as usize, (self.nodes.x * self.nodes.y) as usize)
     }
 
-    /// The first node of the cell of a point, and where in it the point lies, 0..=1; for points beyond the grid a place that
-    /// no hair reaches.
+    /// The first node of the cell of a point, and the place of the point in it, 0..=1. Points beyond the grid get a
+    /// cell that no hair reaches.
     #[inline(always)]
     fn cell(&self, p: [f32; 3]) -> (u32, [f32; 3]) {
         let (size, nodes) = (self.cells_per_cm, self.nodes);
@@ -278,13 +278,13 @@ fn toward<const FUSED: bool>(a: f32, b: f32, t: f32) -> f32 {
     if FUSED { (b - a).mul_add(t, a) } else { (b - a) * t + a }
 }
 
-/// The rows of a box of nodes, from the first to the last along each axis, among all of the grid.
+/// The rows of a box of nodes of the grid, from the first to the last along each axis.
 fn rows(nodes: UVec3, [first, last]: [UVec3; 2]) -> impl Iterator<Item = Range<usize>> {
     let rows = (first.z..=last.z).flat_map(move |k| (first.y..=last.y).map(move |j| (k * nodes.y + j) * nodes.x));
     rows.map(move |row| (row + first.x) as usize..(row + last.x + 1) as usize)
 }
 
-/// The length of hair that each point of a strand stands for: half of the segments that meet there (cm).
+/// The length of hair that each point of a strand represents: half of the segments that meet there (cm).
 fn masses(strand: &[Vec3]) -> Vec<f32> {
     let mut masses = vec![0.0; strand.len()];
     for (i, w) in strand.windows(2).enumerate() {

@@ -1,4 +1,4 @@
-//! What the head's motion does to its hair in one frame: the turn that hair is left behind by, weight, and how the roots speed up.
+//! The effect of the head's motion on its hair in one frame: the turn that hair is left behind by, weight, and acceleration of the roots.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
@@ -14,7 +14,7 @@ pub(super) struct HeadFrame {
     pub turn: Option<(DVec3, f64)>,
     /// The force that weight exerts.
     pub weight: DVec3,
-    /// How a point goes that the head carries. `None` where the head stands still.
+    /// The motion of a point that the head carries. `None` if the head does not move.
     pub way: Option<HeadWay>,
 }
 
@@ -37,7 +37,7 @@ impl HeadFrame {
 }
 
 impl HeadWay {
-    /// By differences of the poses of three frames.
+    /// From differences of the poses of three frames.
     fn new(now: (DVec3, DQuat), before: (DVec3, DQuat), earlier: (DVec3, DQuat)) -> Self {
         let [a, b, c] = [now, before, earlier].map(|(p, turn)| (p, DMat3::from_quat(turn)));
         let head_from_world = DMat3::from_quat(now.1.inverse());
@@ -56,7 +56,7 @@ fn exact(pose: Pose) -> (DVec3, DQuat) {
     (pose.position_cm.as_dvec3(), pose.rotation.as_dquat().normalize())
 }
 
-/// The turn from one rotation to another, in the space that both turn into the world.
+/// The turn from one rotation to another, in the space that both rotate to the world.
 fn turn(before: DQuat, now: DQuat) -> Option<(DVec3, f64)> {
     let turn = before.inverse() * now;
     let turn = if turn.w < 0.0 { -turn } else { turn };

@@ -26,11 +26,11 @@ use crate::vector::{add, cross, dot, scale, scale_add, subtract};
 pub(super) struct FreeState {
     pub direction: PointRow,
     pub increment: PointRow,
-    /// By how much the joint at its beginning is twisted (rad).
+    /// Twist of the joint at its beginning (rad).
     pub twist: Row,
-    /// By how much a body pushes the node at its end outward (cm a frame^2).
+    /// How strongly a body pushes the node at its end outward (cm per frame^2).
     pub pressed: Row,
-    /// How far at least the segment's end is from touching a body (cm). Unused where there is none.
+    /// A lower bound of the distance of the segment's end from touching a body (cm). Unused without bodies.
     pub gap: Row,
 }
 
@@ -67,17 +67,17 @@ pub(super) struct FreeRow {
     pub carries: PointRow,
     /// C_i.
     pub hold: Row,
-    /// What the solve leaves of roundings at rest.
+    /// The rounding error that the solve leaves at rest.
     pub residual: PointRow,
 }
 
-/// What the air does to one segment of every strand of a block.
+/// The effect of the air on one segment of every strand of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct AirRow {
     /// alpha_i.
     pub air: Row,
-    /// The part of the head's motion that it is left behind by.
+    /// The share of the head's motion that it is left behind by.
     pub drag: Row,
 }
 
@@ -95,7 +95,7 @@ impl FreeRow {
 }
 
 impl AirRow {
-    /// That of lanes without a segment: as all others, where all others are alike.
+    /// Lanes without a segment get the value of the others, if these are all alike.
     pub fn of(form: &FreeForm, slow: f64) -> Self {
         Self { air: Row([(form.air(0.0) / slow) as f32; LANES]), drag: Row([form.drag.at(0.0) as f32; LANES]) }
     }
@@ -106,13 +106,13 @@ impl AirRow {
     }
 }
 
-/// R_(i-1) of every strand of a block, a quaternion of about length 1: it has carried the segments before this one from
-/// their rest to where they are.
+/// R_(i-1) of every strand of a block, a quaternion of length about 1: it has carried the segments before this one from
+/// rest to their current directions.
 #[derive(Clone, Copy, Debug)]
 struct FrameRow {
     vector: PointRow,
     scalar: Row,
-    /// 2 / its squared length, worked out beside it: the next segment waits for both.
+    /// 2 / its squared length, computed early because the next segment waits for both.
     over_length: Row,
 }
 
@@ -140,14 +140,14 @@ pub(super) static BEYOND: (FreeState, FreeRow, Work) = (
 pub(super) const NONE: Row = Row([0.0; LANES]);
 pub(super) const ZERO: PointRow = [NONE; 3];
 
-/// What follows a segment; all 0 beyond the last one.
+/// What comes after a segment; all 0 after the last one.
 #[inline(always)]
 pub(super) fn next<'a, T>(of: &'a [T], i: usize, beyond: &'a T) -> &'a T {
     of.get(i + 1).unwrap_or(beyond)
 }
 
-/// Goes to the tips, and finds where the nodes are, how they go, where the frames carry the shape at rest, and half of the way to how the
-/// segments turn about themselves: a tridiagonal system. `weight`: that at rest, if it is asked for where the frames carry it.
+/// Goes to the tips: positions and velocities of the nodes, where the frames carry the shape at rest, and the first half of the
+/// tridiagonal system of the segments' turns about themselves. `weight`: that at rest, if wanted where the frames carry it.
 #[inline(always)]
 pub(super) fn carry(
     states: &[FreeState],
@@ -184,7 +184,8 @@ pub(super) fn carry(
             let goes = beyond(&velocity, lane, length, w);
             set_lane(&mut velocity, lane, goes);
 
-            // The turn from where the segment before it would carry it to where it is, and that of its joint's twist about it.
+            // The rotation of a segment from where the segment before would carry it to its direction, and the twist of its joint about
+            // it.
             let (u, s) = (lane_of(&frame.vector, lane), frame.scalar.0[lane]);
             let carried_rest = lane_of(&carried, lane);
             let bend = cross(carried_rest, subtract(d, carried_rest));
@@ -192,14 +193,14 @@ pub(super) fn carry(
             let (u, s) = after(u, s, v, t);
             let half = 0.5 * twist.0[lane];
             let (u, s) = after(u, s, scale(half, d), 1.0);
-            // The length of a product is that of its factors; finite even where many kinks have left nothing of it.
+            // The length of a product is that of its factors. Finite even if many kinks have left nothing of it.
             let longer = t.mul_add(t, dot(v, v)) * half.mul_add(half, 1.0);
             let over = (frame.over_length.0[lane] / longer).min(2e30);
             set_lane(&mut frame.vector, lane, u);
             frame.scalar.0[lane] = s;
             frame.over_length.0[lane] = over;
             let next_rest = turned(u, s, over, lane_of(&next_at_rest, lane));
-            // Half-way between the two segments, so that it gives no energy.
+            // Halfway between the two segments, so that it adds no energy.
             let here = turned(u, s, over, lane_of(&carries, lane));
             set_lane(&mut load, lane, scale(0.5, add(lane_of(&loaded, lane), here)));
             let next_load = turned(u, s, over, lane_of(&next_carries, lane));
@@ -215,7 +216,7 @@ pub(super) fn carry(
             let right = (-stiff).mul_add(twist.0[lane], right);
             let lower = -stiff * handed.0[lane];
             let middle = (-lower).mul_add(above.0[lane], middle);
-            // What is held does not turn.
+            // A held segment does not turn.
             let over = if (lightness.0[lane] > 0.0) & (middle > 0.0) { 1.0 / middle } else { 0.0 };
             above.0[lane] = -next_stiff * hands * over;
             turned_by.0[lane] = (-lower).mul_add(turned_by.0[lane], right) * over;
@@ -234,7 +235,7 @@ pub(super) fn untwist(work: &mut [Work]) {
     slacken(work);
 }
 
-/// Goes to the tips with the joints as they are twisted then: s_i, the shear of their moments.
+/// Goes to the tips with the new twists of the joints: s_i, the shear of their moments.
 #[inline(always)]
 pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]) {
     let torsion = joints::TORSION as f32;
@@ -267,7 +268,7 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]
             set_lane(&mut held, lane, hold::moment_lane(hold.0[lane], lane_of(&rest, lane), d));
             set_lane(&mut end_way, lane, scale(over_length.0[lane], d));
         }
-        // The shear is hold alone until the moment of the next joint is known.
+        // The shear is only hold until the moment of the next joint is known.
         (work.shear, work.end_way) = (held, end_way);
     }
     if let Some(last) = work.last_mut() {
@@ -275,7 +276,7 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]
     }
 }
 
-/// From the moments at both of its ends and hold to the shear of a segment.
+/// The shear of a segment, from the moments at both of its ends and hold.
 #[inline(always)]
 fn shear(next: &PointRow, work: &mut Work) {
     let Work { moment, mut shear, end_way, .. } = *work;
@@ -288,7 +289,7 @@ fn shear(next: &PointRow, work: &mut Work) {
     work.shear = shear;
 }
 
-/// Turns a segment of every strand through a step of `h` frames, as if nothing were in its way. `from` and `to`: p_(i-1) and p_i after it.
+/// Turns a segment of every strand through a step of `h` frames, ignoring bodies. `from` and `to`: p_(i-1) and p_i after it.
 #[inline(always)]
 pub(super) fn advance(state: &mut FreeState, row: &FreeRow, work: &Work, h: f32, from: &PointRow, to: &mut PointRow) {
     let theta = THETA as f32;
@@ -303,7 +304,7 @@ pub(super) fn advance(state: &mut FreeState, row: &FreeRow, work: &Work, h: f32,
         let w = scale(if speed > 1.0 { 1.0 / speed.sqrt() } else { 1.0 }, w);
         let way = scale_add(theta * h, w, scale((1.0 - theta) * h, before));
         let sum = add(d, way);
-        // What rests keeps its bits: a length of 1 but for its rounding is not brought back to 1.
+        // Hair at rest keeps its bits: a length that is 1 up to rounding is not corrected.
         let shorter = if dot(way, way) > 0.0 { 1.0 / dot(sum, sum).sqrt() } else { 1.0 };
         let there = scale(shorter, sum);
         let w = scale_add(-dot(w, there) / (1.0 + dot(d, there)), add(d, there), w);
@@ -314,8 +315,8 @@ pub(super) fn advance(state: &mut FreeState, row: &FreeRow, work: &Work, h: f32,
     (state.direction, state.increment, *to) = (direction, increment, end);
 }
 
-/// The turn (v, t) from one direction to another, of which t is 1 + their cosine, brought near to length 1, not to it:
-/// whoever turns by it divides by its length.
+/// The rotation (v, t) from one direction to another, t being 1 + their cosine, brought near length 1 but not exactly:
+/// users divide by its length.
 #[inline(always)]
 fn shortened(v: [f32; 3], t: f32) -> ([f32; 3], f32) {
     // |(v, t)|^2 is 2 t for directions of length 1; half of it, x, is near 1 unless hair is kinked, and (3 - x) / 4 is
@@ -324,13 +325,13 @@ fn shortened(v: [f32; 3], t: f32) -> ([f32; 3], f32) {
     (scale(shorter, v), t * shorter)
 }
 
-/// The turn (v, t) after the turn (u, s).
+/// The rotation (v, t) after the rotation (u, s).
 #[inline(always)]
 fn after(u: [f32; 3], s: f32, v: [f32; 3], t: f32) -> ([f32; 3], f32) {
     (scale_add(t, u, scale_add(s, v, cross(v, u))), t.mul_add(s, -dot(v, u)))
 }
 
-/// Where the ends of a segment of every strand are.
+/// The ends of a segment of every strand.
 #[inline(always)]
 pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRow {
     let (direction, length, from) = (state.direction, row.length, *from);
@@ -341,13 +342,13 @@ pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRo
     to
 }
 
-/// Leaves a segment of every strand behind by its part of the head's turn: `axis` of length 1, `angle` in rad.
+/// Leaves a segment of every strand behind by its share of the head's turn: `axis` of length 1, `angle` in rad.
 #[inline(always)]
 pub(super) fn stay_behind(state: &mut FreeState, row: &FreeRow, axis: [f32; 3], angle: f32, drag: &Row) {
     let FreeState { mut direction, mut increment, .. } = *state;
     let (lightness, drag) = (row.lightness, *drag);
     for lane in 0..LANES {
-        // What is held goes with the head.
+        // Held segments move with the head.
         let share = if lightness.0[lane] > 0.0 { drag.0[lane] } else { 0.0 };
         let (sin, cos) = sin_cos(-0.5 * (angle * share));
         let u = scale(sin, axis);

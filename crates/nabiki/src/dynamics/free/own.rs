@@ -1,4 +1,4 @@
-//! What the strands of a block make of the wind: see [`Own::wind`].
+//! How the strands of a block modify the wind: see [`Own::wind`].
 
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::trigonometry::sin_cos;
@@ -20,7 +20,7 @@ struct WaveRow {
 }
 
 impl OwnRow {
-    /// Lanes without a strand do as all others would, were they alike.
+    /// Lanes without a strand get the value of the others, if these are alike.
     pub fn of(strands: impl Iterator<Item = Own>) -> Self {
         let mut of = Self { share: Row([1.0; LANES]), flutter: Row::default(), rhythm: Default::default() };
         for (lane, own) in strands.enumerate() {
@@ -55,7 +55,7 @@ impl OwnRow {
     }
 }
 
-/// What becomes of a force of the field in one frame: s (F + b x F).
+/// The effective force of the field in one frame: s (F + b x F).
 pub(super) struct WindRow {
     scale: Row,
     turn: PointRow,

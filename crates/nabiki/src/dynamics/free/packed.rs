@@ -1,4 +1,4 @@
-//! Hair packed into blocks for the free form, and what a frame does to all of it.
+//! Hair packed into blocks for the free form, and the effect of a frame on all of it.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::{Strands, bounds};
 
-/// A mesh hands on many numbers, and states are told apart often: they are gone through once.
+/// A mesh feeds many numbers to the hash, and states are compared often: compute it only once.
 fn shapes(bodies: &[Body]) -> u64 {
     let mut identity = Identity::new();
     for body in bodies {
@@ -34,7 +34,7 @@ fn shapes(bodies: &[Body]) -> u64 {
     identity.get()
 }
 
-/// Everything about hair that no frame changes.
+/// Everything about hair that does not change from frame to frame.
 #[derive(Clone, Debug)]
 pub(super) struct Packed {
     pub dynamics: Dynamics,
@@ -42,17 +42,17 @@ pub(super) struct Packed {
     stability: Stability,
     pub blocks: Vec<Block>,
     pub rows: Vec<FreeRow>,
-    /// Of every row, or a single one where they are all alike.
+    /// One per row, or a single one if all are alike.
     airs: Vec<AirRow>,
-    /// Of every block, the points that the head carries its strands by: their roots, or the nodes that a tie holds last.
+    /// For every block, the points by which the head carries its strands: their roots, or the last nodes that a tie holds.
     pub anchors: Vec<PointRow>,
-    /// What strands make of the wind, block by block; empty where they are all alike.
+    /// How strands modify the wind, block by block; empty if all are alike.
     own: Vec<OwnRow>,
     /// eps_i, where the scene has a pseudo-force.
     pub weakening: Option<(Surroundings, Vec<Row>)>,
-    /// For each body, what the ends of the segments are kept out of.
+    /// For each body, the surface that the ends of the segments are kept out of.
     pub kept_from: Vec<KeptFrom>,
-    /// What tells the shapes of the bodies from others.
+    /// Identifies the shapes of the bodies.
     shapes: u64,
     pub rest: Vec<FreeState>,
     pub weight_at_rest: [f32; 3],
@@ -64,10 +64,10 @@ pub(super) struct Packed {
 }
 
 impl Packed {
-    /// Bytes of a row of sixteen segments, with what moves of it.
+    /// Bytes of a row of sixteen segments, including its moving state.
     pub const BYTES_A_ROW: usize = size_of::<FreeRow>() + size_of::<AirRow>() + 2 * size_of::<FreeState>();
 
-    /// Packs hair at rest in the given shape, whose settings have been checked. `known`: the same hair, packed with other
+    /// Packs hair at rest in the given shape, with checked settings. `known`: the same hair, packed with other
     /// settings; what these do not change is taken from there.
     pub fn new(
         strands: &Strands,
@@ -154,7 +154,7 @@ impl Packed {
         Ok(())
     }
 
-    /// Takes what the solve leaves of roundings at rest.
+    /// Stores the rounding error that the solve leaves at rest.
     fn take_rest(&mut self) {
         let mut states = self.rest.clone();
         let mut none = vec![Vec3::ZERO; self.blocks.iter().map(Block::point_count).sum()];
@@ -164,7 +164,7 @@ impl Packed {
         }
     }
 
-    /// From the very points that the step puts together, so that what rests does not touch.
+    /// From exactly the points that the step computes, so that hair at rest does not touch.
     fn kept_from(&self, body: &Body) -> KeptFrom {
         let body_from_head = body.head_from_body(0, &self.free.rest_pose).inverse();
         let rows = self.rows.len();
@@ -185,7 +185,7 @@ impl Packed {
         kept
     }
 
-    /// What tells this hair at rest from other hair, whatever moves it.
+    /// Identifies this hair at rest, whatever moves it.
     pub fn identity(&self) -> u64 {
         let mut identity = Identity::new();
         self.blocks.iter().for_each(|block| block.identify(&mut identity));
@@ -195,7 +195,7 @@ impl Packed {
         identity.get()
     }
 
-    /// What tells the bodies that its gaps are gaps to from others; 0 without any.
+    /// Identifies the bodies that its gaps refer to; 0 without any.
     pub fn bodies_identity(&self) -> u64 {
         if self.free.bodies.is_empty() {
             return 0;
@@ -235,7 +235,7 @@ impl Packed {
         self.rest.clone()
     }
 
-    /// Puts to rest what is held: tied hair, whose tie may be another than that under which it came where it is.
+    /// Puts held segments to rest: tied hair may have got here under another tie.
     pub fn hold(&self, states: &mut [FreeState]) {
         for ((state, row), rest) in states.iter_mut().zip(&self.rows).zip(&self.rest) {
             for lane in (0..LANES).filter(|&lane| row.lightness.0[lane] == 0.0) {
@@ -256,7 +256,7 @@ impl Packed {
         }
     }
 
-    /// What a frame does to every block. `crowd`: what the carriers left in the frame before.
+    /// The effect of a frame on every block. `crowd`: the carriers' grid of the frame before.
     pub fn plan<'a>(&self, input: &FrameInput<'a>, bodies: &'a [PlacedBody], crowd: Option<&'a Crowd>) -> Plan<'a> {
         let head = HeadFrame::new(input, &self.free.form);
         let field = FieldFrame::new(input, self.dynamics.motion.force_space);
@@ -277,7 +277,7 @@ impl Packed {
     }
 }
 
-/// Velocity and acceleration of the points that the head carries: columns of a matrix, and what it is in the origin.
+/// Velocity and acceleration of the points that the head carries: columns of a matrix, and the value at the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RootWay {
     pub velocity: ([[f32; 3]; 3], [f32; 3]),
@@ -292,7 +292,7 @@ impl From<HeadWay> for RootWay {
     }
 }
 
-/// What a body keeps the ends of segments out of, row by row.
+/// What the ends of segments are kept out of for one body, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct KeptFrom {
     /// How far from it they are kept (cm).
@@ -301,45 +301,45 @@ pub(super) struct KeptFrom {
     pub filled: Vec<u16>,
 }
 
-/// What becomes of the hair in one frame.
+/// The mode of a frame.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is one for each frame")]
 pub(super) enum Plan<'a> {
-    /// It is put back to rest.
+    /// Hair is put back to rest.
     Rest,
-    /// It moves.
+    /// Hair moves.
     Step(Step<'a>),
-    /// It stays, and the points are what the increments alone move them by (cm a frame).
+    /// Hair stays; the points are what the increments alone move them by (cm per frame).
     Velocities,
-    /// At rest; increments become what drives them there, which is roundings.
+    /// Hair is at rest; increments become what drives them there, which is rounding error.
     Residual,
 }
 
-/// What a frame does to every block.
+/// The effect of a frame on every block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step<'a> {
-    /// Number of the frame to arrive at.
+    /// Number of the frame to compute.
     pub frame: u32,
     pub field: FieldFrame<'a>,
-    /// The field's force, where that is the same everywhere (head space).
+    /// The field's force, if it is the same everywhere (head space).
     pub uniform: Option<[f32; 3]>,
-    /// All forces, where they are.
+    /// All forces by position.
     pub everywhere: Option<[f32; 3]>,
     /// The head's turn: axis and angle (rad).
     pub turn: Option<([f32; 3], f32)>,
     /// The weight's force (head space).
     pub weight: [f32; 3],
-    /// How the head carries the roots; none where it stands still.
+    /// How the head carries the roots; none if it does not move.
     pub way: Option<RootWay>,
-    /// How many steps the frame is divided into.
+    /// Number of steps in the frame.
     pub steps: u32,
-    /// All bodies at the end of the first step, then at the end of the next.
+    /// All bodies at the end of the first step, then at the end of the next, and so on.
     pub bodies: &'a [PlacedBody],
     pub crowd: Option<&'a Crowd>,
 }
 
 impl Packed {
-    /// What of body `b` the end of a segment of row `at` keeps out of, and how far from it (cm).
+    /// The surface of body `b` that keeps the end of a segment of row `at` out, and at what distance (cm).
     #[inline(always)]
     pub fn kept_out_of(&self, b: usize, at: usize, lane: usize) -> (Surface, f32) {
         let kept = &self.kept_from[b];
@@ -347,7 +347,7 @@ impl Packed {
         (surface, kept.clearances[at].0[lane])
     }
 
-    /// What the strands of a block make of the wind; none where they are as all others.
+    /// How the strands of a block modify the wind; none if all are alike.
     #[inline(always)]
     pub fn own(&self, block: usize) -> Option<&OwnRow> {
         self.own.get(block)

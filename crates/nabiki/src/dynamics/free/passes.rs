@@ -1,4 +1,4 @@
-//! What surrounds a block of strands in a step: forces on its nodes, and bodies that they are kept out of.
+//! The surroundings of a block of strands in a step: forces on its nodes, and bodies that keep them out.
 
 use glam::Vec3;
 
@@ -13,7 +13,7 @@ use crate::dynamics::row::{LANES, PointRow, Row, beyond, lane as lane_of, rotate
 use crate::prefetch::prefetch_ahead;
 use crate::vector::{add, dot, scale, scale_add, subtract};
 
-/// How many segments ahead memory is asked for: its answer takes as long as their steps.
+/// How many segments ahead memory is prefetched: it takes as long as their steps.
 const AHEAD: usize = 10;
 
 /// A block in a frame.
@@ -32,9 +32,9 @@ pub(super) struct Stepped<'a, 's> {
     pub of: Blown<'a, 's>,
     /// The bodies at its end.
     pub bodies: &'a [PlacedBody],
-    /// Its part of the frame.
+    /// Its share of the frame.
     pub h: f32,
-    /// How far the bodies come in it, at most (cm).
+    /// The largest distance that the bodies move in it (cm).
     pub closer: f32,
 }
 
@@ -43,7 +43,7 @@ impl<'a, 's> Blown<'a, 's> {
         &self.packed.rows[self.block.rows()]
     }
 
-    /// Asks for what is felt once a frame: the field, and what neighbours do.
+    /// Evaluates what acts once a frame: the field and the neighbours.
     #[inline(always)]
     pub fn blow(&self, states: &[FreeState], work: &mut [Work]) {
         let (rows, first) = (self.rows(), self.block.rows().start);
@@ -103,7 +103,7 @@ impl<'a, 's> Blown<'a, 's> {
     }
 }
 
-/// How forces accelerate the nodes.
+/// The acceleration of the nodes by forces.
 #[inline(always)]
 fn pushed(push: &Row, forces: &PointRow) -> PointRow {
     let (push, forces, mut pushed) = (*push, *forces, PointRow::default());
@@ -114,12 +114,12 @@ fn pushed(push: &Row, forces: &PointRow) -> PointRow {
 }
 
 impl<'a, 's> Stepped<'a, 's> {
-    /// All that accelerates the nodes but the chain itself.
+    /// All acceleration of the nodes except by the chain.
     #[inline(always)]
     pub fn push(&self, states: &mut [FreeState], work: &mut [Work]) {
         let Blown { packed, step, block, number } = self.of;
         let (rows, first) = (self.of.rows(), block.rows().start);
-        // Of the points that the head carries the strands by.
+        // Of the points by which the head carries the strands.
         let (mut velocity, mut acceleration) = (PointRow::default(), PointRow::default());
         if let Some(way) = &step.way {
             for lane in 0..LANES {
@@ -152,7 +152,7 @@ impl<'a, 's> Stepped<'a, 's> {
         }
     }
 
-    /// Takes from what pushes some nodes what would carry them into the bodies.
+    /// Removes from the acceleration of some nodes what would carry them into the bodies.
     #[inline(always)]
     fn push_back(&self, state: &mut FreeState, row: &FreeRow, at: usize, other: &PointRow, work: &mut Work) {
         work.clear = Row([f32::INFINITY; LANES]);
@@ -162,7 +162,7 @@ impl<'a, 's> Stepped<'a, 's> {
         let (mut net, mut reach) = (PointRow::default(), Row::default());
         for lane in 0..LANES {
             let velocity = lane_of(&velocity, lane);
-            // What weight does besides the one that rest is in balance with.
+            // The effect of weight minus the weight that balances the hair at rest.
             let unbalanced = scale(push.0[lane], subtract(weight, lane_of(&at_rest, lane)));
             let sum = add(lane_of(&other, lane), unbalanced);
             let sum = scale_add(-drag.0[lane], velocity, sum);
@@ -178,7 +178,7 @@ impl<'a, 's> Stepped<'a, 's> {
         if let [body] = self.bodies
             && body.rests()
         {
-            // What it pushes by says how far it is, too.
+            // The contact returns the distance, too.
             while near != 0 {
                 let lane = next_lane(&mut near);
                 self.push_one_back(state, at, &net, work, lane);
@@ -192,7 +192,7 @@ impl<'a, 's> Stepped<'a, 's> {
         let mut read = near;
         while read != 0 {
             let lane = next_lane(&mut read);
-            // Below 0 the way to the tips looks again.
+            // If negative, the pass to the tips checks again.
             state.gap.0[lane] = gaps[lane];
             if gaps[lane] >= reach.0[lane] && pressed >> lane & 1 == 0 {
                 near &= !(1 << lane);
@@ -204,7 +204,7 @@ impl<'a, 's> Stepped<'a, 's> {
         }
     }
 
-    /// The same of one node. What pressed it in the step before is of the nearest body.
+    /// The same for one node. The push of the step before belongs to the nearest body.
     #[inline(always)]
     fn push_one_back(&self, state: &mut FreeState, at: usize, net: &PointRow, work: &mut Work, lane: usize) {
         let of = |row: &PointRow| Vec3::from(lane_of(row, lane));
@@ -245,12 +245,12 @@ impl<'a, 's> Stepped<'a, 's> {
         }
     }
 
-    /// How far at least the ends of some segments are from touching body `b`, where that is less than `gaps`.
+    /// Lower bounds of how far the ends of some segments are from touching body `b`, where less than `gaps`.
     #[inline(always)]
     fn read_gaps(&self, b: usize, at: usize, mut near: u32, to: &PointRow, gaps: &mut [f32; LANES]) {
         let (packed, placed) = (self.of.packed, &self.bodies[b]);
         let (body, kept) = (&packed.free.bodies[b], &packed.kept_from[b]);
-        // Nearly all that lies on a body with filled folds keeps out of those.
+        // Nearly all hair on a body with filled folds is kept out of these.
         let (usual, unusual) = match (&body.filled, &body.shape) {
             (Some(filled), _) => (Some(filled), !kept.filled[at]),
             (None, Shape::Mesh(skin)) => (Some(skin), 0),
@@ -276,15 +276,15 @@ impl<'a, 's> Stepped<'a, 's> {
     }
 }
 
-/// Which nodes may be nearer to a body than they reach: a bit for each strand.
+/// Which nodes may be nearer to a body than they can move: a bit for each strand.
 #[inline(always)]
 fn near(gap: &Row, reach: &Row, row: &FreeRow) -> u32 {
     let (gap, reach, lightness) = (*gap, *reach, row.lightness);
-    // What is held, and what is no segment, is infinitely heavy.
+    // Held and missing segments have infinite mass.
     mask(|lane| (gap.0[lane] < reach.0[lane]) & (lightness.0[lane] > 0.0))
 }
 
-/// A bit for each lane of which something is true.
+/// A bit for each lane in which the condition holds.
 #[inline(always)]
 fn mask(is: impl Fn(usize) -> bool) -> u32 {
     let mut bits = [0; LANES];
@@ -294,13 +294,13 @@ fn mask(is: impl Fn(usize) -> bool) -> u32 {
     bits.iter().fold(0, |all, bit| all | bit)
 }
 
-/// The way to the tips on which segments are turned, and out of bodies.
+/// The pass to the tips that turns segments, and moves them out of bodies.
 pub(super) struct Go<'a, 's> {
     stepped: Stepped<'a, 's>,
     work: &'a [Work],
     /// Number of the segment.
     i: usize,
-    /// Of p_(i-1) at the end of the step (cm a frame), where there are bodies.
+    /// Of p_(i-1) at the end of the step (cm per frame), if there are bodies.
     velocity: PointRow,
 }
 
@@ -338,12 +338,12 @@ impl Pass<FreeState, FreeRow> for Go<'_, '_> {
 }
 
 impl Go<'_, '_> {
-    /// Number of the row among those of all blocks.
+    /// Index of the row among those of all blocks.
     fn at(&self) -> usize {
         self.stepped.of.block.rows().start + self.i
     }
 
-    /// Turns segments out of the bodies: of sixteen nodes a few may have come near, and fewer touch.
+    /// Turns segments out of the bodies: of sixteen nodes a few may be near, and fewer touch.
     #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     fn keep_out(&self, state: &mut FreeState, was: &PointRow, row: &FreeRow, from: &PointRow, to: &mut PointRow) {
@@ -362,7 +362,7 @@ impl Go<'_, '_> {
         for b in 0..self.stepped.bodies.len() {
             self.stepped.read_gaps(b, self.at(), near, to, &mut gaps);
         }
-        // Number by number: vectors would wait for what has just been written so.
+        // One number at a time: vector loads would wait for numbers just written one by one.
         let (mut read, mut touching) = (near, 0);
         while read != 0 {
             let lane = next_lane(&mut read);
@@ -405,11 +405,12 @@ impl Go<'_, '_> {
                 inward = inward.max(went);
             }
         }
-        // What touches nothing keeps its bits: when it is asked for depends on the hair that is stepped with it.
+        // A segment that touches nothing keeps its bits, because when it is tested depends on the other strands in the
+        // block.
         if !stopped {
             return;
         }
-        // What one body has turned may be in another: a corner is left by turns.
+        // A turn out of one body may lead into another: this alternates until the segment leaves the corner.
         let mut rounds = if bodies.len() > 1 { ROUNDS } else { 0 };
         while stopped && rounds > 0 {
             stopped = false;
@@ -421,7 +422,7 @@ impl Go<'_, '_> {
             }
             rounds -= 1;
         }
-        // Beyond the way that it had: what it was stopped in is not what presses it.
+        // Only beyond the motion it had: the part that was stopped is not what presses it.
         state.pressed.0[lane] += ANSWER * (inward - self.work[self.i].clear.0[lane]).max(0.0) / (h * h);
         set_lane(&mut state.direction, lane, going.direction.to_array());
         set_lane(&mut state.increment, lane, (going.increment / h).to_array());
@@ -429,7 +430,7 @@ impl Go<'_, '_> {
     }
 }
 
-/// Takes the first lane out of a set of them, a bit for each.
+/// Removes the first lane from a set, a bit for each, and returns it.
 #[inline(always)]
 fn next_lane(set: &mut u32) -> usize {
     let lane = set.trailing_zeros() as usize;
@@ -437,7 +438,7 @@ fn next_lane(set: &mut u32) -> usize {
     lane
 }
 
-/// Puts strands together as they are.
+/// Computes the points of the strands as they are.
 pub(super) struct Place;
 
 impl Pass<FreeState, FreeRow> for Place {
@@ -454,7 +455,7 @@ impl Pass<FreeState, FreeRow> for Place {
     }
 }
 
-/// Adds up what the increments move each point by, from a root that stands still.
+/// Adds up the motion of each point by the increments, for a root at rest.
 pub(super) struct Velocities;
 
 impl Pass<FreeState, FreeRow> for Velocities {

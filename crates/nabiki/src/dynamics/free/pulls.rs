@@ -1,4 +1,4 @@
-//! What pulls on hair in the free form, a force a file: in numbers of any kind for the specification, and on one lane for the fast step.
+//! What pulls on hair in the free form, one force per file: over any scalar for the specification, and for one lane of the fast step.
 
 pub(super) mod hold;
 pub(super) mod joints;
@@ -9,7 +9,7 @@ use self::weight::Gravity;
 use crate::dynamics::pull::Pull;
 use crate::free_form::FreeMotion;
 
-/// What may be too strong for the step, besides the field. Joints and hold are stepped implicitly, and may have any strength.
+/// What may be too strong for the step, besides the field. Joints and hold are implicit and may have any strength.
 pub(in crate::dynamics) fn pulls(free: &FreeMotion) -> Vec<Box<dyn Pull + '_>> {
     vec![Box::new(Gravity(free.form.gravity))]
 }

@@ -25,7 +25,7 @@ pub(in crate::dynamics) use strand::{Springs, Strand};
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Reference {
     hair: Hair,
-    /// The carriers, and what they left in the frame before.
+    /// The carriers, and their grid of the frame before.
     crowd: Option<(Hair, Crowd)>,
     frame: u32,
 }
@@ -115,7 +115,7 @@ impl Hair {
         self.publish();
     }
 
-    /// What the increments alone move every point by in a frame (cm).
+    /// The motion of every point by the increments alone in a frame (cm).
     fn velocities(&self) -> Vec<Vec3> {
         let mut velocities = Vec::with_capacity(self.positions.len());
         self.hair.iter().for_each(|strand| velocities.extend(strand.velocities().map(|v| v.as_vec3())));

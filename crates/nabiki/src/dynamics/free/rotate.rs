@@ -2,7 +2,7 @@
 
 use crate::vector::{cross, scale_add};
 
-/// `v` turned by the quaternion (u, s), 2 / whose squared length is `over_length`. Without a turn, u = 0, it keeps its
+/// `v` rotated by the quaternion (u, s), 2 / whose squared length is `over_length`. Without a turn, u = 0, it keeps its
 /// bits.
 #[inline(always)]
 pub(super) fn turned(u: [f32; 3], s: f32, over_length: f32, v: [f32; 3]) -> [f32; 3] {

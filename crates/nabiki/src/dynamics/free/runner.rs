@@ -1,4 +1,4 @@
-//! The free form on its way through the frames: hair, and the carriers that go before it.
+//! The free form through the frames: hair, and the carriers that move before it.
 
 use std::sync::Arc;
 
@@ -18,14 +18,14 @@ use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::Strands;
 
-/// Some hair, what moves before it, and the frame that both are at.
+/// Some hair, its carriers, and the frame that both are at.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Runner {
     /// Shared by all clones.
     packed: Arc<Packed>,
     states: Vec<FreeState>,
     carriers: Option<Carriers>,
-    /// Room for the bodies in one frame.
+    /// Working memory for the bodies in one frame.
     bodies: Vec<PlacedBody>,
 }
 
@@ -53,8 +53,8 @@ impl Runner {
         Ok(Self { states: packed.states(), packed, carriers, bodies })
     }
 
-    /// Refuses a field under which this hair, or its carriers, cannot be stepped; `strands` are those that it was made of, `ids`
-    /// their numbers.
+    /// Refuses a field under which this hair, or its carriers, cannot be stepped. `strands` are those that it was built
+    /// from, `ids` their numbers.
     pub fn check_field(&self, strands: &Strands, ids: &[u32], field: &dyn Field) -> Result<(), SettingError> {
         let carriers = self.carriers.as_ref();
         if self.packed.is_stable(field) && carriers.is_none_or(|carriers| carriers.hair.packed.is_stable(field)) {
@@ -69,7 +69,7 @@ impl Runner {
         self.packed.dynamics()
     }
 
-    /// What the carriers left in the frame that this is at; none where hair feels no neighbours.
+    /// The carriers' grid in the current frame; none if hair feels no neighbours.
     pub fn crowd(&self) -> Option<&Crowd> {
         self.carriers.as_ref().map(|carriers| &carriers.crowd)
     }
@@ -80,12 +80,12 @@ impl Runner {
         self.packed.strongest_force().min(of_carriers.unwrap_or(f32::MAX))
     }
 
-    /// Whether both share all that no frame changes.
+    /// Whether both share everything that does not change from frame to frame.
     pub fn is_clone_of(&self, of: &Self) -> bool {
         Arc::ptr_eq(&self.packed, &of.packed)
     }
 
-    /// Stands where the same hair stands, be it among other bodies or carriers: `headers` are its own and that of `of`, none for clones.
+    /// Takes the state of the same hair, even among other bodies or carriers. `headers` are its own and that of `of`; none for clones.
     pub fn set_state(&mut self, of: &Self, headers: Option<&(Header, Header)>, width: VectorWidth) {
         self.states.copy_from_slice(&of.states);
         if let (Some(carriers), Some(of)) = (&mut self.carriers, &of.carriers)
@@ -102,7 +102,7 @@ impl Runner {
         }
     }
 
-    /// After states and points of other settings, which had the header `of`, have taken the place of its own.
+    /// Call after states and points with other settings, of header `of`, have replaced its own.
     fn settle_in(&mut self, own: &Header, of: &Header, width: VectorWidth) {
         self.packed.hold(&mut self.states);
         if let Some(carriers) = &mut self.carriers {
@@ -118,7 +118,7 @@ impl Runner {
         }
     }
 
-    /// What it is that it holds the state of.
+    /// Identifies what it holds the state of.
     pub fn header(&self) -> Header {
         let carriers = self.carriers.as_ref().map(|carriers| &carriers.hair);
         let of_carriers = carriers.map_or(0, |hair| 3 * hair.points.len() + hair.states.len() * FreeState::NUMBERS);
@@ -133,7 +133,7 @@ impl Runner {
         }
     }
 
-    /// Writes where it stands.
+    /// Writes its state.
     pub fn write(&self, writer: &mut Writer) {
         writer.rows(self.states.iter().flat_map(FreeState::rows));
         if let Some(Carriers { hair, .. }) = &self.carriers {
@@ -142,7 +142,7 @@ impl Runner {
         }
     }
 
-    /// Stands where the same hair stood when it was written, be it among other bodies or carriers. `own`: its header.
+    /// Takes a written state of the same hair, even among other bodies or carriers. `own`: its header.
     pub fn read(&mut self, reader: &mut Reader, own: &Header, width: VectorWidth) {
         reader.rows(self.states.iter_mut().flat_map(FreeState::rows_mut));
         if let Some(Carriers { hair, .. }) = &mut self.carriers
@@ -154,7 +154,7 @@ impl Runner {
         self.settle_in(own, &reader.header, width);
     }
 
-    /// Forgets how far all of it is from the bodies, so that the next step asks.
+    /// Forgets the distances of all segments from the bodies, so that the next step computes them.
     pub fn jumped(&mut self) {
         let of_carriers = self.carriers.iter_mut().flat_map(|carriers| &mut carriers.hair.states);
         for state in self.states.iter_mut().chain(of_carriers) {
@@ -170,7 +170,7 @@ impl Runner {
         }
     }
 
-    /// Moves the hair by one frame; beside it the carriers.
+    /// Moves the hair by one frame, and the carriers in parallel.
     pub fn step(&mut self, input: &FrameInput, width: VectorWidth, page: &mut [Vec3]) {
         let Self { packed, states, carriers, bodies } = self;
         packed.bodies(input, bodies);
@@ -180,7 +180,7 @@ impl Runner {
         };
         let Carriers { hair, crowd, next } = carriers;
         let plan = packed.plan(input, bodies, Some(crowd));
-        // What the carriers leave is one thread's work: it begins first.
+        // Writing the carriers' grid is sequential, so it begins first.
         rayon::join(
             || hair.step(input, bodies, width, crowd, next),
             || sweep(&**packed, &[plan], width, states, Pages::Last(page)),
@@ -188,7 +188,7 @@ impl Runner {
         std::mem::swap(crowd, next);
     }
 
-    /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
+    /// Moves the hair through many frames, the first of them rest if `from_rest`.
     pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
         let Self { packed, states, carriers, .. } = self;
         let bodies: Vec<Vec<PlacedBody>> = (inputs.iter())
@@ -220,13 +220,13 @@ impl Runner {
     }
 }
 
-/// The strands that carry density and velocity, and what they leave.
+/// The strands that carry density and velocity, and their grid.
 #[derive(Clone, Debug)]
 struct Carriers {
     hair: CarrierHair,
-    /// What they left in the frame before.
+    /// Their grid of the frame before.
     crowd: Crowd,
-    /// Room for what they leave in this one.
+    /// Memory for their grid of this frame.
     next: Crowd,
 }
 
@@ -236,7 +236,7 @@ struct CarrierHair {
     strands: Arc<Strands>,
     packed: Arc<Packed>,
     states: Vec<FreeState>,
-    /// Where they are, as the step put them together.
+    /// Their points, as computed by the step.
     points: Vec<Vec3>,
     velocities: Vec<Vec3>,
     crowd_at_rest: Arc<Crowd>,
@@ -261,7 +261,7 @@ impl Carriers {
         next.take(&hair.crowd_at_rest);
     }
 
-    /// Leaves what the carriers are who were put elsewhere.
+    /// Recomputes the grid of carriers that were moved elsewhere.
     fn fill(&mut self, width: VectorWidth) {
         let Self { hair, crowd, .. } = self;
         sweep(&*hair.packed, &[Plan::Velocities], width, &mut hair.states, Pages::Last(&mut hair.velocities));
@@ -270,7 +270,7 @@ impl Carriers {
 }
 
 impl CarrierHair {
-    /// Moves by one frame under what they left in the frame before, and leaves in `next` what they are then.
+    /// Moves by one frame under the grid of the frame before, and writes the new grid to `next`.
     fn step(&mut self, input: &FrameInput, bodies: &[PlacedBody], width: VectorWidth, crowd: &Crowd, next: &mut Crowd) {
         let plan = self.packed.plan(input, bodies, Some(crowd));
         sweep(&*self.packed, &[plan], width, &mut self.states, Pages::Last(&mut self.points));

@@ -8,26 +8,26 @@ use crate::dynamics::gain::{SegmentShape, push, segment_shapes};
 use crate::error::SettingError;
 use crate::free_form::{FreeForm, FreeMotion};
 
-/// What moves one segment, and the node at its end. Directions are in head space; moments and forces are those of a hair of which a
-/// centimetre weighs 1.
+/// What moves one segment, and the node at its end. Directions are in head space; moments and forces are for hair of
+/// weight 1 per cm.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct FreeSegment {
     pub shape: SegmentShape,
     /// r_i, of length 1.
     pub rest: DVec3,
-    /// A: by how much a force of 1 accelerates the node (cm a frame^2). 0 where the segment is held.
+    /// A: the acceleration of the node by a force of 1 (cm per frame^2). 0 if the segment is held.
     pub push: f64,
-    /// 1/m_i, of the node (1/cm). 0 where the segment is held: what is infinitely heavy stays.
+    /// 1/m_i, of the node (1/cm). 0 if the segment is held: infinite mass stays in place.
     pub lightness: f64,
-    /// B_i of the joint at its beginning: its moment for each radian (cm^3 a frame^2).
+    /// B_i of the joint at its beginning: its moment per radian (cm^3 per frame^2).
     pub bending: f64,
-    /// N_i, the moment with which that joint carries the weight of all beyond it at rest.
+    /// N_i, the moment with which that joint carries the weight beyond it at rest.
     pub carries: DVec3,
-    /// C_i: the moment with which hold turns it back, for each radian.
+    /// C_i: the moment per radian with which hold turns it back.
     pub hold: f64,
-    /// alpha_i, what the air takes of the node's speed (1 a frame).
+    /// alpha_i, the share of the node's speed that the air takes (1 per frame).
     pub air: f64,
-    /// The part of the head's motion that it is left behind by.
+    /// The share of the head's motion that it is left behind by.
     pub drag: f64,
 }
 
@@ -36,11 +36,11 @@ pub(in crate::dynamics) struct FreeSegment {
 /// The implicit step bears any stiffness of hair that hardly turns, but where hair is turned far in a step by what presses it, joints as stiff
 /// as that throw it. `gravity`: its strength. Real hair of 18 cm in segments of 1 cm takes five at 24 frames a second, two at 120.
 pub fn substeps(dynamics: &Dynamics, form: &FreeForm, gravity: f32, [length, segment]: [f64; 2]) -> u32 {
-    /// Rad a step. In the gust under the earth's gravity at 24 frames a second, single strands that the wind presses to the head go on to and
+    /// Rad per step. In the gust under the earth's gravity at 24 frames a second, single strands pressed to the head keep moving to and
     /// fro at 0.09 and 0.11, and all lie still at 0.07. Swings come out slower by a fiftieth, with the step's theta of 0.6.
     const SWING: f64 = 0.07;
-    /// What the fastest ripple, sqrt(EI / lambda) / l^2, may be times the step. Of the shipped scenes, curls and ponytail throw single strands
-    /// at 13; at 10, curls in a wind four times as strong.
+    /// Limit of the fastest ripple, sqrt(EI / lambda) / l^2, times the step. In the shipped scenes, curls and ponytail
+    /// throw single strands at 13; at 10, curls do in a wind four times as strong.
     const RIPPLE: f64 = 6.0;
     let push = push(dynamics, length);
     let swing = (push * f64::from(gravity) / length).sqrt();
@@ -51,7 +51,7 @@ pub fn substeps(dynamics: &Dynamics, form: &FreeForm, gravity: f32, [length, seg
     (swing / SWING).max(ripple / RIPPLE).ceil().clamp(2.0, 32.0) as u32
 }
 
-/// How many segments of a strand are held where it is tied.
+/// Number of segments of a strand that a tie holds.
 fn held(form: &FreeForm, strand: &[Vec3]) -> usize {
     form.tie.map_or(0, |tie| tie.held(strand))
 }
@@ -106,7 +106,7 @@ pub(in crate::dynamics) fn free_segments(
         drag: 0.0,
     };
     let mut segments: Vec<FreeSegment> = (0..shapes.len()).map(still).collect();
-    // From the tip: how much hair is beyond each node, and the moment of its weight.
+    // From the tip: the length of hair beyond each node, and the moment of its weight.
     let (mut beyond, mut carries) = (0.0, DVec3::ZERO);
     for i in (held..shapes.len()).rev() {
         let shape = shapes[i];

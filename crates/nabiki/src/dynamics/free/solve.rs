@@ -8,8 +8,8 @@ use super::work::Work;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::vector::{add, dot, scale, scale_add, subtract};
 
-/// Goes to the tips with the tridiagonal system of the tensions: what drives the increments without them, and half of the way to them. `ANSWERED`:
-/// after [`answer`].
+/// Goes to the tips with the tridiagonal system of the tensions: what drives the increments without them, and the first
+/// half of the elimination. `ANSWERED`: after [`answer`].
 #[inline(always)]
 pub(super) fn pull_taut<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
     let mut answered_before = ZERO;
@@ -36,17 +36,17 @@ pub(super) fn pull_taut<const ANSWERED: bool>(states: &[FreeState], rows: &[Free
             if ANSWERED {
                 let answered = scale(up, subtract(lane_of(&answers, lane), lane_of(&beyond, lane)));
                 let by = dot(subtract(answered, lane_of(&answered_before, lane)), d);
-                // Strands that ask for no answer keep their bits, the sign of 0 too.
+                // Strands that need no answer keep their bits, including the sign of 0.
                 right = if by == 0.0 { right } else { right + by };
                 set_lane(&mut answered_before, lane, answered);
             }
             let lower = -down * dot(d, lane_of(&before, lane));
             let middle = (-lower).mul_add(above.0[lane], up + down);
-            // What is held, and what is no segment, is under no tension.
+            // Held and missing segments are under no tension.
             let over = if up > 0.0 { 1.0 / middle } else { 0.0 };
             let along = dot(d, lane_of(&next_direction, lane));
             above.0[lane] = -up * along * over;
-            // Of the joint after it, the square of the sine of the bend; what is held bends no joint.
+            // For the joint after it, the squared sine of the bend; held segments bend no joint.
             bent.0[lane] = if up > 0.0 { (-along).mul_add(along, 1.0) } else { 0.0 };
             tension.0[lane] = (-lower).mul_add(tension.0[lane], right) * over;
             set_lane(&mut node_before, lane, node);
@@ -70,7 +70,7 @@ pub(super) fn slacken(work: &mut [Work]) {
     }
 }
 
-/// Adds what the tensions do to what drives the increments.
+/// Adds the effect of the tensions to what drives the increments.
 #[inline(always)]
 pub(super) fn drive(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
     let mut node_before = ZERO;
@@ -93,7 +93,7 @@ pub(super) fn drive(states: &[FreeState], rows: &[FreeRow], work: &mut [Work]) {
     }
 }
 
-/// What earlier rows of the pentadiagonal system leave: coefficients of the two unknowns after each, and its right side.
+/// What earlier rows of the pentadiagonal system leave: coefficients of the two next unknowns, and the right side.
 #[derive(Clone, Copy)]
 struct Left {
     next: Row,
@@ -101,7 +101,7 @@ struct Left {
     right: PointRow,
 }
 
-/// How turns of four segments in a row accelerate the node between the two in the middle.
+/// The acceleration of the middle node by turns of four segments in a row.
 type NodeRow = [Row; 4];
 
 /// Goes to the tips with the pentadiagonal system of the increments, for a step of `h` frames.
@@ -155,7 +155,7 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [
             let c = (-a).mul_add(two.after.0[lane], (-b).mul_add(one.next.0[lane], c));
             let d = (-b).mul_add(one.after.0[lane], implicit * d);
             let right = scale_add(-a, lane_of(&two.right, lane), scale_add(-b, lane_of(&one.right, lane), right));
-            // What is held stays, and so does what is no segment.
+            // Held and missing segments stay.
             let over = if up > 0.0 { 1.0 / c } else { 0.0 };
             left[1].next.0[lane] = left[0].next.0[lane];
             left[1].after.0[lane] = left[0].after.0[lane];
@@ -170,8 +170,8 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [
     }
 }
 
-/// Q of a segment: by how much its force answers a turn of the one before it, of itself and of the next. `bent`: the square of the sine of
-/// the bend of the joint before it.
+/// Q of a segment: the answer of its force to a turn of the one before it, of itself and of the next. `bent`: the
+/// squared sine of the bend of the joint before it.
 #[inline(always)]
 fn answers(row: &FreeRow, next: Option<&FreeRow>, bent: &Row, work: &Work) -> [Row; 3] {
     let next = next.map_or(NONE, |next| next.bending);
@@ -205,8 +205,8 @@ pub(super) fn unwind(work: &mut [Work]) {
     }
 }
 
-/// After a solve of `h` frames: takes down how the joints of some strands, those of `pressed`, answer the turns that it found, so that the
-/// tensions of another know of it.
+/// After a solve of `h` frames: records how the joints of the `pressed` strands answer the turns found, for the
+/// tensions of the next solve.
 #[inline(always)]
 pub(super) fn answer(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
     let (theta, pressed) = (THETA as f32, *pressed);

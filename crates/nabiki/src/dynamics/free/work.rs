@@ -1,44 +1,45 @@
-//! Room for one block of strands on its way through a step: each thread has its own, and keeps it.
+//! Working memory for one block of strands in a step; each thread keeps its own.
 
 use std::cell::RefCell;
 
 use crate::dynamics::row::{LANES, PointRow, Row};
 
-/// What a step makes of one segment of every strand of a block.
+/// The working values of one segment of every strand of a block.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(super) struct Work {
-    /// How field and neighbours accelerate the node in this frame (cm a frame^2).
+    /// The acceleration of the node by field and neighbours in this frame (cm per frame^2).
     pub blown: PointRow,
-    /// beta_i: what air and neighbours take of its speed (1 a frame).
+    /// beta_i: the share of its speed that air and neighbours take (1 per frame).
     pub drag: Row,
-    /// b_i: how all but the chain and the air accelerate it.
+    /// b_i: its acceleration by all but the chain and the air.
     pub pushed: PointRow,
     /// Where R_(i-1) carries the weight at rest.
     pub weight: PointRow,
     /// R_(i-1) r_i.
     pub carried: PointRow,
-    /// M_i, the moment of the joint at its beginning; after a first solve, by how much the joints' force on the segment changes in the step.
+    /// M_i, the moment of the joint at its beginning; after a first solve, the change of the joints' force on the segment during the step.
     pub moment: PointRow,
-    /// kappa_i, the part of a turn of the segment before it about itself that the joint hands on.
+    /// kappa_i, the share of a turn of the segment before it about itself that the joint passes on.
     pub handed: Row,
-    /// Where the node is (head space, cm), how it goes (cm a frame), and how the head's turn has moved it in this step.
+    /// Position of the node (head space, cm), its velocity (cm per frame), and its motion by the head's turn in this
+    /// step.
     pub end: PointRow,
     pub velocity: PointRow,
     pub shifted: PointRow,
-    /// How far it is from touching a body at the beginning of the step, where it was asked for; else infinity.
+    /// Its distance from touching a body at the beginning of the step, if it was computed; else infinity.
     pub clear: Row,
     /// d_i / l_i.
     pub end_way: PointRow,
     /// s_i.
     pub shear: PointRow,
-    /// What a tridiagonal system is solved for, and how it depends on the next one: by how much the segment turns about itself, and then its
-    /// tension.
+    /// The unknown of a tridiagonal system, and its dependence on the next one: first the turn of the segment about
+    /// itself, then its tension.
     pub tension: Row,
     pub above: Row,
-    /// The square of the sine of the bend of the joint after it.
+    /// The squared sine of the bend of the joint after it.
     pub bent: Row,
-    /// What drives the increment, and then the increment; how it depends on the next two.
+    /// What drives the increment, and then the increment; its dependence on the next two.
     pub driven: PointRow,
     pub next: Row,
     pub after: Row,
@@ -75,7 +76,7 @@ thread_local! {
     static ROOM: RefCell<Vec<Work>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Takes this thread's room out, for so many segments: it is given back by [`keep`]. What is in it is of no use.
+/// Takes this thread's memory, for this many segments; [`keep`] returns it. Its contents are stale.
 #[inline(always)]
 pub(super) fn room(segments: usize) -> Vec<Work> {
     let mut room = ROOM.with(RefCell::take);

@@ -9,8 +9,8 @@ use crate::scalar::{Scalar, Vector};
 /// of a segment of half a centimetre between two f32 points 32 cm from the origin is not known any better.
 pub(super) const POLE_SINE: f64 = 1e-5;
 
-/// Below this increment of theta (rad per frame) a segment counts as at rest, so that the force may choose its
-/// theta plane; a segment that swings through the pole keeps the plane it swings in.
+/// Below this increment of theta (rad per frame) a segment counts as at rest, so the force may choose its theta plane.
+/// A segment that swings through the pole keeps its plane.
 pub(super) const POLE_REST: f64 = 1e-6;
 
 /// (theta, phi) of a direction of any length but 0; phi = 0 where it is undefined.
@@ -25,7 +25,7 @@ pub(super) fn direction_turns(s: DVec3) -> [[f64; 2]; 2] {
     [[level / length, s.y / length], phi]
 }
 
-/// The azimuth of a force, where it has one.
+/// The azimuth of a force, if it has one.
 pub(super) fn azimuth<S: Scalar>(force: Vector<S>) -> Option<S> {
     let level = force.value();
     (level.x != 0.0 || level.z != 0.0).then(|| {

@@ -1,4 +1,4 @@
-//! The force of one frame as the fast step wants it: the same for all hair, or asked of the field at every node.
+//! The force of one frame for the fast step: one for all hair, or evaluated at every node.
 
 use super::rows::{SegmentState, ShapeRow, extend};
 use super::surroundings::{Force, Surroundings};
@@ -6,7 +6,7 @@ use crate::dynamics::field_frame::FieldFrame;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::{ForceSpace, FrameInput};
 
-/// Where forces come from in one frame.
+/// The source of forces in one frame.
 pub(super) trait ForceSource: Copy {
     /// The forces on a segment of each strand of a block.
     type Forces: Forces;
@@ -96,12 +96,12 @@ impl Forces for ForceRow {
     }
 }
 
-/// Where the force of one frame comes from.
+/// The source of the force of one frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum AnySource<'a> {
     /// The same everywhere.
     Uniform(Force),
-    /// Asked for at every node.
+    /// Evaluated at every node.
     Local(FieldFrame<'a>),
 }
 

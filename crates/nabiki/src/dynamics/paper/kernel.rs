@@ -24,14 +24,14 @@ pub(super) fn step_segment<const TILTED: bool>(
 ) {
     let forces = source.at::<TILTED>(before, state, shape, surroundings);
     let (was, mut far) = (*state, 0);
-    // One loop, and no other between it and the points of the segment before: rows that one loop writes by halves
-    // and the next one reads whole hold the machine up for longer than a step takes.
+    // A single loop, with none between it and the points of the segment before. Rows written by halves in one loop and
+    // read whole in the next stall the machine for longer than a step takes.
     for lane in 0..LANES {
         let (force, length) = (forces.lane(lane), shape.length.0[lane]);
         let direction = surroundings.direction::<TILTED>(was.theta.lane(lane), was.phi.lane(lane));
         let p = beyond(before, lane, length, direction);
         [before[0].0[lane], before[1].0[lane], before[2].0[lane]] = p;
-        // Not a choice between two rows, which the compiler would make a gather.
+        // Not a choice between two rows, which the compiler would turn into a gather.
         let eps = if surroundings.weaken(p, &force) { shape.eps.0[lane] } else { 1.0 };
         let c = eps * shape.gain.0[lane];
 
@@ -54,7 +54,7 @@ pub(super) fn step_segment<const TILTED: bool>(
         [to[0].0[lane], to[1].0[lane], to[2].0[lane]] = p;
     }
     if far != 0 {
-        // Lanes that turn little have what they need; each lane's bits are its own whichever way its block goes.
+        // Lanes that turn little are done. The bits of a lane do not depend on its block.
         for lane in 0..LANES {
             let (theta, phi) = (was.theta.lane(lane), freed(&was, lane, &forces.lane(lane)));
             let (theta_increment, phi_increment) = (state.theta_increment.0[lane], state.phi_increment.0[lane]);
@@ -76,7 +76,7 @@ fn freed(state: &SegmentState, lane: usize, force: &Force) -> Turn {
     [if free { azimuth[0] } else { phi[0] }, if free { azimuth[1] } else { phi[1] }]
 }
 
-/// Turns a segment of every strand by angles of any size, which leaves its increments as they are.
+/// Turns a segment of every strand by angles of any size. Its increments do not change.
 #[inline(always)]
 pub(super) fn disturb_segment(state: &mut SegmentState, theta: &Row, phi: &Row, along: &Row) {
     for lane in 0..LANES {

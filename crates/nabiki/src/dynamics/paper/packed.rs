@@ -1,4 +1,4 @@
-//! Hair packed into blocks for the paper's form, and what a frame does to a block.
+//! Hair packed into blocks for the paper's form, and the effect of a frame on a block.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ use crate::error::SettingError;
 use crate::field::Field;
 use crate::strands::Strands;
 
-/// Everything about hair that no frame changes.
+/// Everything about hair that does not change from frame to frame.
 #[derive(Clone, Debug)]
 pub(super) struct Packed {
     dynamics: Dynamics,
@@ -37,7 +37,7 @@ pub(super) struct Packed {
 }
 
 impl Packed {
-    /// Bytes of a row of sixteen segments, with what moves of it.
+    /// Bytes of a row of sixteen segments, including its moving state.
     pub const BYTES_A_ROW: usize = size_of::<ShapeRow>() + size_of::<Row>() + 2 * size_of::<SegmentState>();
 
     /// Packs hair at rest in the given shape; `ids` are the strands' numbers in the set they are some of.
@@ -84,7 +84,7 @@ impl Packed {
         Ok(())
     }
 
-    /// What tells this hair at rest from other hair, whatever moves it.
+    /// Identifies this hair at rest, whatever moves it.
     pub fn identity(&self) -> u64 {
         let mut identity = Identity::new();
         self.blocks.iter().for_each(|block| block.identify(&mut identity));
@@ -112,7 +112,7 @@ impl Packed {
         self.rest.clone()
     }
 
-    /// What a frame does to every block.
+    /// The effect of a frame on every block.
     pub fn plan<'a>(&self, input: &FrameInput<'a>) -> Plan<'a> {
         let source = AnySource::new(input, self.dynamics.motion.force_space, &self.surroundings);
         let disturbance = self.dynamics.disturbance.as_ref().and_then(|d| d.part(input.frame));
@@ -120,12 +120,12 @@ impl Packed {
     }
 }
 
-/// What becomes of the hair in one frame.
+/// The mode of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Plan<'a> {
-    /// It is put back to rest.
+    /// Hair is put back to rest.
     Rest,
-    /// It moves.
+    /// Hair moves.
     Step { source: AnySource<'a>, disturbance: Option<Part> },
 }
 
@@ -180,7 +180,7 @@ impl Packed {
         }
     }
 
-    /// Moves a block by one frame, and writes its points where they are wanted.
+    /// Moves a block by one frame, and writes its points where the caller wants them.
     #[inline(always)]
     fn step<const TILTED: bool>(
         &self,
@@ -189,7 +189,7 @@ impl Packed {
         states: &mut [SegmentState],
         page: Option<&mut [Vec3]>,
     ) {
-        // Copies, which nothing that is written can change: they need not be read again at every segment.
+        // Local copies, so that they need not be read again at every segment.
         let (surroundings, source, before) = (self.surroundings, *source, block.roots);
         block.walk(
             &block.roots,
@@ -213,7 +213,7 @@ impl Packed {
         }
     }
 
-    /// Writes the points of the angles as they are.
+    /// Writes the points of the current angles.
     #[inline(always)]
     fn place<const TILTED: bool>(&self, block: &Block, states: &mut [SegmentState], page: &mut [Vec3]) {
         let surroundings = &self.surroundings;

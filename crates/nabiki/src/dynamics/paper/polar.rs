@@ -17,13 +17,13 @@ pub(in crate::dynamics) struct PolarAxis {
 }
 
 impl PolarAxis {
-    /// `axis`: of any finite length but 0 (head space).
+    /// `axis`: of any finite length except 0 (head space).
     pub fn new(axis: Vec3) -> Self {
         let axis = axis.as_dvec3().normalize();
         if axis.x.hypot(axis.z) <= UPRIGHT && axis.y > 0.0 {
             return Self { polar_from_head: DMat3::IDENTITY };
         }
-        // Equations (1) and (2) are the same after any turn about the axis, so any rotation that takes it to y will do.
+        // Equations (1) and (2) are invariant under turns about the axis, so any rotation that takes it to y will do.
         Self { polar_from_head: DMat3::from_quat(DQuat::from_rotation_arc(axis, DVec3::Y)) }
     }
 

@@ -78,7 +78,7 @@ impl ShapeRow {
     }
 }
 
-/// Puts segment i of every strand of a block on its p_(i-1), which gives p_i.
+/// Places segment i of every strand of a block at its p_(i-1), and returns p_i.
 #[inline(always)]
 pub(super) fn extend<const TILTED: bool>(
     from: &PointRow,

@@ -1,4 +1,4 @@
-//! The paper's form on its way through the frames.
+//! The paper's form through the frames.
 
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ impl Runner {
         Ok(Self { states: packed.states(), packed })
     }
 
-    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was made of, `ids` their numbers.
+    /// Refuses a field under which this hair cannot be stepped; `strands` are those that it was built from, `ids` their numbers.
     pub fn check_field(&self, strands: &Strands, ids: &[u32], field: &dyn Field) -> Result<(), SettingError> {
         match self.packed.is_stable(field) {
             true => Ok(()),
@@ -50,28 +50,28 @@ impl Runner {
         self.packed.strongest_force()
     }
 
-    /// Whether both share all that no frame changes.
+    /// Whether both share everything that does not change from frame to frame.
     pub fn is_clone_of(&self, of: &Self) -> bool {
         Arc::ptr_eq(&self.packed, &of.packed)
     }
 
-    /// Stands where the same hair stands.
+    /// Takes the state of the same hair.
     pub fn set_state(&mut self, of: &Self) {
         self.states.copy_from_slice(&of.states);
     }
 
-    /// What it is that it holds the state of.
+    /// Identifies what it holds the state of.
     pub fn header(&self) -> Header {
         let numbers = (self.states.len() * SegmentState::NUMBERS) as u64;
         Header { is_free: false, numbers, hair: self.packed.identity(), ..Header::default() }
     }
 
-    /// Writes where it stands.
+    /// Writes its state.
     pub fn write(&self, writer: &mut Writer) {
         writer.rows(self.states.iter().flat_map(SegmentState::rows));
     }
 
-    /// Stands where the same hair stood when it was written.
+    /// Takes a written state of the same hair.
     pub fn read(&mut self, reader: &mut Reader) {
         reader.rows(self.states.iter_mut().flat_map(SegmentState::rows_mut));
     }
@@ -87,7 +87,7 @@ impl Runner {
         sweep(&*self.packed, &[plan], width, &mut self.states, Pages::Last(page));
     }
 
-    /// Moves the hair through many frames, the first of them rest itself if `from_rest`.
+    /// Moves the hair through many frames, the first of them rest if `from_rest`.
     pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
         let steps = inputs.iter().map(|input| self.packed.plan(input));
         let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();

@@ -1,4 +1,4 @@
-//! What lies around hair of the paper's form, and a force as its equations want it.
+//! The surroundings of hair in the paper's form, and a force in the terms of its equations.
 
 use glam::Vec3;
 
@@ -8,7 +8,7 @@ use crate::dynamics::row::rotate;
 use crate::ellipsoid::Ellipsoid;
 use crate::vector::dot;
 
-/// What lies around the hair in every frame: Gamma but for the force, and the polar axis.
+/// The surroundings in every frame: Gamma except for the force, and the polar axis.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Surroundings {
     /// 1 / half axis.
@@ -19,7 +19,7 @@ pub(in crate::dynamics) struct Surroundings {
     center: [f32; 3],
     /// C as a squared radius, where E's is 1.
     shell_squared: f32,
-    /// alpha |alpha|: (4) with both sides multiplied by their own size, which spares the roots.
+    /// alpha |alpha|: (4) with both sides multiplied by their absolute values, which saves the roots.
     alpha_squared: f32,
     /// Columns of the rotation from head space to the space whose y is the polar axis.
     polar_from_head: [[f32; 3]; 3],
@@ -42,7 +42,7 @@ impl Surroundings {
         }
     }
 
-    /// For whoever asks for no angles.
+    /// For users that need no angles.
     pub fn upright(dynamics: &Dynamics) -> Self {
         Self::new(dynamics, &PolarAxis::new(Vec3::Y))
     }
@@ -50,7 +50,7 @@ impl Surroundings {
     /// Equation (4), see [`Gamma::contains`](crate::pseudo_force::Gamma::contains).
     #[inline(always)]
     pub fn weaken(&self, p: [f32; 3], force: &Force) -> bool {
-        // In units of the half axes, where the normal of the ellipsoid is q over them once more.
+        // In units of the half axes, where the normal of the ellipsoid is q divided by them once more.
         let q = [0, 1, 2].map(|axis| p[axis].mul_add(self.inverse[axis], -self.center[axis]));
         let squares = q.map(|v| v * v);
         let radius_squared = squares[0] + squares[1] + squares[2];
@@ -68,14 +68,14 @@ impl Surroundings {
     }
 }
 
-/// F(n+1) at one place.
+/// F(n+1) at one point.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Force {
-    /// For Gamma: over the half axes of E, in head space.
+    /// For Gamma: divided by the half axes of E, in head space.
     pub in_half_axes: [f32; 3],
-    /// For the equations: the space whose y is the polar axis.
+    /// For the equations: in the space whose y is the polar axis.
     pub in_polar: [f32; 3],
-    /// Sine and cosine of its azimuth about the polar axis; (0, 0) where it has none.
+    /// Sine and cosine of its azimuth about the polar axis; (0, 0) if it has none.
     pub azimuth: [f32; 2],
     /// alpha |alpha| |F|^2.
     pub threshold: f32,

@@ -8,8 +8,8 @@ use crate::dynamics::trigonometry::sin_cos;
 /// The largest turn that the short polynomials of [`turn_little`] are made for (rad).
 const LITTLE: f32 = 1.0 / 3.0;
 
-/// How far sin^2 + cos^2 may stray from 1 before the next turn brings it back. Twice what rounding an exact pair does,
-/// so that what rests is left as it is.
+/// How far sin^2 + cos^2 may drift from 1 before the next turn corrects it. Twice the rounding error of an exact pair,
+/// so that hair at rest does not change.
 const DRIFT: f32 = 2e-7;
 
 /// (sin, cos) of an angle.
@@ -21,15 +21,14 @@ pub(super) fn is_far(angle: f32) -> bool {
     angle * angle > LITTLE * LITTLE
 }
 
-/// The pair of the angle plus `angle`, of which only -[`LITTLE`]..[`LITTLE`] is exact (within 3e-9 before rounding).
-/// By an angle of 0 a pair that has not drifted keeps its bits.
+/// The pair of the angle plus `angle`, exact only within -[`LITTLE`]..[`LITTLE`] (3e-9 before rounding). For an angle
+/// of 0, a pair that has not drifted keeps its bits.
 #[inline(always)]
 pub(super) fn turn_little([sin, cos]: Turn, angle: f32) -> Turn {
     let square = angle * angle;
     let s = (angle * square).mul_add(square.mul_add(0.008_300_574, -0.166_665_4), angle);
-    // cos(angle) - 1, which keeps the digits that the 1 would take, and with it what the pair lacks. That of s, at most
-    // a third of it, is less than a rounding. How far the pair has drifted is known long before the angle is: nothing
-    // waits for it.
+    // cos(angle) - 1 keeps the digits that the 1 would cost, and includes the drift of the pair. That of s, at most a
+    // third of it, is below rounding. The drift is known long before the angle, so nothing waits for it.
     let c = square.mul_add(square.mul_add(square.mul_add(-0.001_384_600_4, 0.041_666_49), -0.5), drift([sin, cos]));
     [cos.mul_add(s, sin.mul_add(c, sin)), sin.mul_add(-s, cos.mul_add(c, cos))]
 }
@@ -43,7 +42,7 @@ pub(super) fn turn_far([sin, cos]: Turn, angle: f32) -> Turn {
     [cos.mul_add(s, sin * c), sin.mul_add(-s, cos * c)]
 }
 
-/// The share of itself that a pair lacks of its length of 1, by one step of Newton's method; 0 if it has not drifted.
+/// The relative error of a pair's length against 1, by one step of Newton's method; 0 if it has not drifted.
 #[inline(always)]
 fn drift([sin, cos]: Turn) -> f32 {
     let excess = sin.mul_add(sin, cos.mul_add(cos, -1.0));
@@ -100,8 +99,8 @@ mod tests {
             assert!((length(turn) - 1.0).abs() < 2e-7, "turn {i}: length {}", length(turn));
             assert!((length(far) - 1.0).abs() < 3.5e-7, "far turn {i}: length {}", length(far));
         }
-        // A million errors of at most 6e-8 that do not conspire: a random walk is 6e-5 long, the polynomials' own
-        // 3e-9 a turn may add up to 3e-3.
+        // A million errors of at most 6e-8, independent: a random walk is 6e-5 long. The polynomials' own 3e-9 per turn
+        // may add up to 3e-3.
         assert!(distance(turn, angle) < 3.1e-3, "{}", distance(turn, angle));
     }
 }

@@ -1,4 +1,4 @@
-//! Carlson's R_D, and the functions of the potential flow about an ellipsoid that are made of it.
+//! Carlson's R_D, and the functions of the potential flow around an ellipsoid built from it.
 
 use crate::field::sine::cos_turns;
 

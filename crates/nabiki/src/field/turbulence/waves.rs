@@ -24,17 +24,17 @@ pub(super) const WAVES: usize = 8;
 /// Mean of s^2: the integral of 64 z^2 (1 - 2 |z|)^2.
 const MEAN_SQUARE: f64 = 8.0 / 15.0;
 
-/// More than the root of the largest s^2 + (6 S)^2, which would be 1 for a sine. The test looks for it.
+/// Above the root of the largest s^2 + (6 S)^2, which would be 1 for a sine. The test searches for it.
 const LARGEST_PROFILE: f64 = 1.02;
 
-/// Pulses after which every wave is as it was.
+/// Number of pulses after which every wave repeats.
 pub(super) const LOOP: f64 = 16.0;
 
 /// Adding it to a number up to 2^22 rounds that to a whole one. Wavelengths are 1.6 times as long as the smallest swirls at least,
 /// which settings keep from being so small that more are counted within 600 m.
 const ROUND: f32 = 12_582_912.0;
 
-/// A wave, but for its phase.
+/// A wave without its phase.
 #[derive(Clone, Copy, Debug, Default)]
 struct Wave {
     /// kappa (wavelengths a cm).
@@ -45,13 +45,13 @@ struct Wave {
     potential: [f32; 3],
 }
 
-/// How the phase of a wave goes.
+/// The motion of a wave's phase.
 #[derive(Clone, Copy, Debug, Default)]
 struct Clock {
     kappa: DVec3,
     /// At frame 0.
     phase: f64,
-    /// Wavelengths a pulse.
+    /// Wavelengths per pulse.
     rate: f64,
 }
 
@@ -60,7 +60,7 @@ struct Clock {
 pub(super) struct Octave {
     waves: [Wave; WAVES],
     clocks: [Clock; WAVES],
-    /// What the constant of S adds to the potential, of all waves.
+    /// The constant of S in the potential, summed over all waves.
     constant: [f32; 3],
 }
 
@@ -108,7 +108,7 @@ impl Octave {
         octave
     }
 
-    /// The phases when the pattern has drifted so far (cm), after so many pulses.
+    /// The phases after this drift of the pattern (cm) and this many pulses.
     pub fn phases(&self, drifted: DVec3, pulses: f64) -> Phases {
         self.clocks.map(|clock| {
             let phase = clock.phase + clock.rate * pulses - clock.kappa.dot(drifted);

@@ -12,9 +12,9 @@ use crate::strands::Strands;
 #[derive(Clone, Debug)]
 pub struct Preroll {
     pub(super) timeline: Timeline,
-    /// Where the spots are that are looked at until then.
+    /// Positions of the spots observed up to that frame.
     pub(super) early: Vec<DVec3>,
-    /// The strands that wishes name, with their numbers.
+    /// The strands in wishes, with their numbers.
     pub(super) strands: Strands,
     pub(super) ids: Vec<u32>,
 }
@@ -31,7 +31,7 @@ impl Preroll {
         Self::onward(problem, &aims, &steady, None, frame)
     }
 
-    /// To a frame in the wind of the problem, from where it is known to be if that is not later.
+    /// Goes to a frame in the wind of the problem, from its known state if that is not later.
     pub(super) fn onward(
         problem: &Problem,
         aims: &Aims,
@@ -68,7 +68,7 @@ impl Preroll {
     }
 }
 
-/// Takes a timeline to the last frame that is looked at, up to `until`, and takes the places of the spots of all frames on its way.
+/// Takes a timeline to the last observed frame, up to `until`, and records the positions of all spots on the way.
 pub(super) fn look(aims: &Aims, until: u32, timeline: &mut Timeline, places: &mut [DVec3]) {
     let begin = timeline.frame();
     for frame in aims.frames().into_iter().filter(|&frame| frame > begin && frame <= until) {

@@ -1,4 +1,4 @@
-//! From one start to the answer: other starts, borders at whole frames, rounded numbers.
+//! From one start to the solution: other starts, borders at whole frames, rounded numbers.
 
 use std::sync::Arc;
 
@@ -31,13 +31,13 @@ impl Default for Search {
     }
 }
 
-/// Who is told of each step, and may stop the search.
+/// Receives each step, and may stop the search.
 struct Watched<'a> {
     goes_on: &'a mut dyn FnMut(f64) -> bool,
     stopped: bool,
 }
 
-/// Starts drawn for each that is followed: the nearest of them is.
+/// Starts drawn for each one followed; the nearest of them is.
 const DRAWN: usize = 8;
 
 impl Solver {
@@ -114,8 +114,8 @@ impl Solver {
         !self.is_braked()
     }
 
-    /// Steps until they lead hardly nearer; where the goal is reached, until they make the way there hardly gentler. `best` is the
-    /// nearest so far.
+    /// Steps until they hardly gain; at the goal, until they hardly make the changes smaller. `best` is the nearest
+    /// motion so far.
     fn descend_to(&mut self, iterations: usize, near: f64, best: &mut Place) {
         let mut slow = 0;
         for _ in 0..iterations {
@@ -134,8 +134,8 @@ impl Solver {
         }
     }
 
-    /// Where the spots are in the motion of a scene that holds the answer. Rounded settings may be too strong for the step
-    /// where these just were not: then a little less of the change is the answer.
+    /// The spots in the motion of a scene with the answer. Rounded settings may be too strong for the step although
+    /// these were not: then the answer changes a little less.
     fn rounded(&mut self) -> Vec<DVec3> {
         const PARTS: usize = 100;
         let x = self.at.x.clone();
@@ -149,9 +149,9 @@ impl Solver {
         self.at.places.clone()
     }
 
-    /// Steps until they lead hardly nearer; where that ends far from the wishes, once more by most of the strands, and from there by all
-    /// of them. Strands that contact throws to one side or the other by a trifle make the sum rough, and steps that are judged by it
-    /// rest in any of its dents; where most strands lead is smooth.
+    /// Steps until they hardly gain. If that ends far from the wishes, steps once more by most of the strands, and from
+    /// there by all of them. Strands that contact throws to one side or the other by chance make the sum rough, and
+    /// steps judged by it stop in any dent; the measure of most strands is smooth.
     fn descend_by_most(&mut self, iterations: usize, near: f64, watched: &mut Watched) {
         self.descend(iterations, near, watched);
         if watched.stopped || self.aims.mean_square(&self.at.places) <= near || !self.aims.tell_most() {
@@ -168,7 +168,7 @@ impl Solver {
         }
     }
 
-    /// Steps until they lead hardly nearer.
+    /// Steps until they hardly gain.
     fn descend(&mut self, iterations: usize, near: f64, watched: &mut Watched) {
         let mut slow = 0;
         for _ in 0..iterations {
@@ -183,12 +183,12 @@ impl Solver {
         }
     }
 
-    /// Where the spots are in the motion of a scene that holds an answer.
+    /// The spots in the motion of a scene with an answer.
     fn left_of(&mut self, answer: &Answer) -> Result<Vec<DVec3>, SettingError> {
         let Answer { keyframes, gust, stiffness, settle } = answer.clone();
         let wind = KeyedWind { keyframes, gust, ease: self.problem.wind.ease };
         let mut dynamics = self.problem.dynamics.clone();
-        // The trial before may have left others, so these are given even where they are the problem's own.
+        // The last trial may have left others, so set these even if they are the problem's own.
         let dynamics = match (&mut dynamics.form, stiffness, settle) {
             (Form::Free(free), Some(stiffness), Some(settle)) => {
                 (free.form.stiffness, free.form.settle) = (stiffness, settle);
@@ -199,12 +199,12 @@ impl Solver {
         self.simulated(wind.field(self.problem.dynamics.motion.frame_rate)?, dynamics)
     }
 
-    /// Another start: the nearest of a few drawn about the problem's own.
+    /// Another start: the nearest of a few drawn around the problem's own.
     fn drawn(&mut self, counter: &mut u64) -> Option<Place> {
         self.drawn_about(&self.start.clone(), 1.0, counter)
     }
 
-    /// The nearest of a few drawn about some numbers, so many times what counts as large away.
+    /// The nearest of a few drawn around some numbers, at this many large changes.
     fn drawn_about(&mut self, about: &[f64], spread: f64, counter: &mut u64) -> Option<Place> {
         let mut best: Option<Place> = None;
         for _ in 0..DRAWN {
@@ -226,8 +226,8 @@ impl Solver {
         best
     }
 
-    /// Gives borders the frames that a scene can hold, and the other numbers the rest of the way: first the nearest frames,
-    /// then one more or less as long as that leads nearer.
+    /// Rounds borders to whole frames and lets the other numbers follow: first to the nearest frames, then one more or
+    /// less as long as that leads nearer.
     fn set_borders_to_frames(&mut self, iterations: usize, watched: &mut Watched) {
         self.held = self.layout.borders().collect();
         let borders = self.held.clone();
@@ -253,7 +253,7 @@ impl Solver {
         self.held.clear();
     }
 
-    /// Moves a border if that, with a few steps of the other numbers, leads nearer by a hundredth.
+    /// Moves a border if that, with a few steps of the other numbers, gains a hundredth.
     fn shift_border(&mut self, i: usize, by: f64, watched: &mut Watched) -> bool {
         const STEPS: usize = 4;
         let before = self.at.clone();

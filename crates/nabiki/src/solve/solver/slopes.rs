@@ -1,4 +1,4 @@
-//! How the spots move with each number: tangents of the specification, or differences between motions of the fast stepper.
+//! Derivatives of the spots by each number: tangents of the specification, or differences between motions of the fast stepper.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::solve::linear::Normal;
 use crate::solve::unknowns::Unknown;
 
 impl Solver {
-    /// The normal equations about where it is.
+    /// The normal equations at the current numbers.
     ///
     /// `usual`: what most strands have left, if those that have much more are to count little.
     pub(super) fn normal(&mut self, held: bool, usual: Option<&[f64]>) -> Result<Normal, SettingError> {
@@ -24,8 +24,8 @@ impl Solver {
         Ok(normal)
     }
 
-    /// Takes tangents of the free form for less, by the square, where a large change of one number would move a spot farther than its
-    /// strand reaches. They are those of hair that is about to fall to the other side of what it lies on, and lead nowhere.
+    /// Weakens tangents of the free form, by the square, if a large change of one number would move a spot farther than
+    /// its strand reaches. They belong to hair about to fall to the other side of what it lies on, and mislead.
     fn doubt(&self, tangents: &mut [f64]) {
         if self.problem.dynamics.form == Form::Paper {
             return;
@@ -40,12 +40,13 @@ impl Solver {
         }
     }
 
-    /// How the spots move with each number, by a motion in a wind with a little more of it, or less where hair cannot be stepped in more. `held`:
-    /// as in the specification's tangents, what depends on the wind and is not linear in it is held: swirls that drift with it would make them rough.
+    /// Derivatives of the spots by each number, from a motion in a wind with a little more of it, or less if the hair cannot be stepped
+    /// with more. `held`: as for the specification's tangents, what depends on the wind but is not linear in it is constant: drifting
+    /// swirls would make the derivatives rough.
     fn differences(&mut self, held: bool) -> Result<Points, SettingError> {
-        /// Of a large change: far above what rounding does to a motion of a few dozen frames, and so much that one strand of ten which contact throws
-        /// 1 cm aside in between does not hide how the others answer. That is 0.1 cm of their mean over a wind of 10, 0.01 cm for each of it;
-        /// free hair of 18 cm moves by 0.01 to 0.07.
+        /// Part of a large change: far above the rounding of a motion of a few dozen frames, and large enough that one
+        /// strand of ten which contact throws 1 cm aside does not hide the answer of the others. That is 0.1 cm of
+        /// their mean over a wind of 10, 0.01 cm per unit; free hair of 18 cm moves by 0.01 to 0.07.
         const PART: f64 = 0.1;
         let n = self.layout.numbers;
         let guess = self.layout.guess(&self.problem.wind, &self.at.x);
@@ -76,7 +77,7 @@ impl Solver {
         Ok(Points { places: self.at.places.clone(), tangents })
     }
 
-    /// How the spots move with each number, by the specification.
+    /// Derivatives of the spots by each number, from the specification.
     fn tangents(&mut self) -> Result<Points, SettingError> {
         let guess = self.layout.guess(&self.problem.wind, &self.at.x);
         let now = self.dynamics(&guess);
@@ -96,7 +97,7 @@ impl Solver {
             timeline.rewind();
             self.standing = Some(Standing::at(frame, &at_rest, &*field, timeline)?);
         }
-        // The carriers of the motion that it has come to: its field was set for the last motion that was tried, which may be another.
+        // The carriers of the current motion: its field was set for the last motion tried, which may be another.
         self.run.stand_where(&self.begin);
         self.run.set_field_onward(field.clone())?;
         let crowds = Crowds::of(&mut self.run, self.frames.last().copied().unwrap_or(frame));

@@ -36,7 +36,7 @@ pub enum Stop {
     },
 }
 
-/// A body, and how a point lies to it: its distance from it, how far the hair is kept from it (cm), and the way out (head space).
+/// A body, and the position of a point relative to it: the distance, the clearance of the hair (cm), and the way out (head space).
 struct Beside<'a> {
     name: &'a str,
     distance: f32,
@@ -44,13 +44,13 @@ struct Beside<'a> {
     out: DVec3,
 }
 
-/// Of its length, what hair can be drawn out to by a wind.
+/// Share of its length to which a wind can draw out hair.
 const TAUT: f64 = 0.98;
-/// Hair so near to a body lies on it (cm, besides its clearance).
+/// Hair this near to a body lies on it (cm, besides its clearance).
 const TOUCHES_CM: f32 = 0.1;
-/// Steps that tell whether a nail is what holds.
+/// Steps to find out whether a nail holds the hair.
 const STEPS: usize = 12;
-/// A step that leaves more than this part of what was left (of its square) gains nothing.
+/// A step that leaves more than this share of the remaining distance (squared) gains nothing.
 const WORTH: f64 = 0.96;
 
 impl Solver {
@@ -91,7 +91,7 @@ impl Solver {
         (away_cm > TAUT * reach_cm).then_some(Stop::Length { away_cm, reach_cm })
     }
 
-    /// The bodies near a point, each with how far that (head space, cm) is from it in the frame of a wish, and the way out.
+    /// The bodies near a point (head space, cm) in the frame of a wish, each with its distance and the way out.
     fn bodies<'a>(&'a self, wish: usize, point: DVec3) -> Vec<Beside<'a>> {
         let Form::Free(free) = &self.problem.dynamics.form else { return Vec::new() };
         let frame = self.problem.wishes[wish].frame;
@@ -132,7 +132,7 @@ impl Solver {
         (2 * most.1 >= places.len()).then(|| Stop::Body(most.0.to_owned()))
     }
 
-    /// Whether it comes nearer without the other wishes; of those the one that then gives way most.
+    /// Whether it comes nearer without the other wishes; if so, the one that then yields most.
     fn by_nail(&mut self, wish: usize, left: f64) -> Option<Stop> {
         if self.problem.wishes.len() < 2 {
             return None;
@@ -156,7 +156,7 @@ impl Solver {
         others.max_by(|&a, &b| moved[a].total_cmp(&moved[b])).map(Stop::Nail)
     }
 
-    /// Whether the next step from the nearest motion is refused for its force, and no shorter one gains anything.
+    /// Whether the force of the next step from the nearest motion is too strong, and no shorter step gains anything.
     fn by_force(&mut self) -> Option<Stop> {
         let (at, damping) = (self.at.clone(), self.damping);
         self.too_strong = false;

@@ -56,7 +56,7 @@ impl Skin {
             weights.push(numbers(&of_weights, buffers, Whole::Shares, "weights")?);
             let (count, vertices) = (joints[set as usize].len().min(weights[set as usize].len()), positions.len());
             if count < vertices {
-                return Err(Error::new(format!("joints and weights of {count} vertices, of {vertices}")));
+                return Err(Error::new(format!("joints and weights for {count} vertices instead of {vertices}")));
             }
         }
         if joints.is_empty() || self.joints.is_empty() {
@@ -73,7 +73,7 @@ impl Skin {
                 let weight = f64::from(weight);
                 let scene_from_mesh = self.scene_from_mesh.get(joint as usize).ok_or_else(|| {
                     let known = self.joints.len();
-                    Error::new(format!("vertex {v} is bound to joint {joint} of a skin of {known}"))
+                    Error::new(format!("vertex {v} is bound to joint {joint}, but its skin has {known}"))
                 })?;
                 place += weight * scene_from_mesh.transform_point3(position.as_dvec3());
                 total += weight;

@@ -15,21 +15,21 @@ use crate::error::{Error, Result};
 use crate::memory;
 use crate::scene::{EllipsoidChoice, GrownHair};
 
-/// Where hair grows. It is equal to itself and to no other.
+/// The roots of the hair. Equal only to themselves.
 #[derive(Debug)]
 pub(in crate::built) struct Roots {
     inputs: RootsInputs,
-    /// The first of the farthest-first order.
+    /// The first ones of the farthest-first order.
     list: Vec<Root>,
 }
 
-/// What roots are made from.
+/// The inputs of roots.
 #[derive(Debug, PartialEq)]
 pub(in crate::built) struct RootsInputs {
     model: Arc<Model>,
     hairline: Hairline,
     seed: u64,
-    /// Of the whole scene, which are spread however few are wanted.
+    /// For the whole scene: all are spread, however few are wanted.
     strands: usize,
     /// How many are wanted.
     count: usize,
@@ -57,11 +57,11 @@ impl Stage for Roots {
 
     fn make(inputs: RootsInputs, at: At<'_>) -> Result<Self> {
         let RootsInputs { model, hairline, seed, strands, count } = &inputs;
-        check_memory(at, "hair.strands", strands, roots::least_bytes(*strands), "to spread its roots", "grow less")?;
+        check_memory(at, "hair.strands", strands, roots::least_bytes(*strands), "spreading their roots", "grow fewer")?;
         let still = || (at.goes_on)(0.0);
         let list = roots::spread_first_while(&model.head, hairline, *strands, *count, *seed, &still);
         let list = list.map_err(|mut refused| {
-            // Hair grows where the skin lies near the ellipsoid: one that is given may be to blame as well.
+            // Hair grows where the skin is near the ellipsoid, so a given one may be the cause, too.
             if refused.thing == "hair.hairline" && matches!(model.inputs.ellipsoid, EllipsoidChoice::Given(_)) {
                 refused.remedy += ", or correct head.ellipsoid: hair grows where the skin is near it";
             }
@@ -71,7 +71,7 @@ impl Stage for Roots {
     }
 }
 
-/// The strands that are wanted, grown from their roots.
+/// The wanted strands, grown from their roots.
 pub(super) fn grow(
     inputs: &GroomInputs,
     settings: &GrownHair,
@@ -83,7 +83,7 @@ pub(super) fn grow(
     let growth = Growth { hairline, style, strands: *strands, segments: *segments, segment_length, seed: *seed };
     let (count, run) = inputs.wanted.of(*strands, true)?;
     let first = inputs.first.min(*strands);
-    // Those from number `from` on.
+    // Those from index `from` on.
     let grown = |roots: &[Root], from: usize, goes_on: GoesOn<'_>| -> Result<Hair> {
         let head = &inputs.model.head;
         check_growth(at, &growth, head, roots)?;
@@ -92,7 +92,7 @@ pub(super) fn grow(
     };
     let roots = &roots.list;
     let (hair, first) = if run.start < first {
-        // What is wanted first is grown anyway.
+        // The first strands are grown in any case.
         let hair = grown(roots, 0, at.goes_on)?;
         let first = hair.strands.select(&(0..first).collect::<Vec<_>>());
         let more = hair.strands.len() > run.len();
@@ -108,19 +108,19 @@ pub(super) fn grow(
 
 /// Refuses hair whose points take more memory than there is.
 fn check_growth(at: At<'_>, growth: &Growth<'_>, head: &Head, roots: &[Root]) -> Result<()> {
-    // So many show how long the others will be.
+    // This many show how long the others will be.
     const FEW: usize = 256;
-    // As it grows, and as it is straightened or not.
+    // Before and after straightening.
     let bytes = |points: f64| (2.0 * points * size_of::<Vec3>() as f64) as u64;
     if memory::short_of(bytes(roots.len() as f64 * (growth.segments as f64 + 1.0))).is_none() {
         return Ok(());
     }
-    // Short hair has fewer segments than it may have.
+    // Short hair has fewer segments than the maximum.
     let few = &roots[..roots.len().min(FEW)];
     let tried = grow_run_while(head, growth, few, 0, &|_| true).map_err(|refused| at.refusal(refused))?;
     let mean = tried.map_or(0.0, |hair| hair.strands.points().len() as f64 / few.len().max(1) as f64);
-    // What is certain: those tried may be longer than most.
+    // A lower bound: the strands tried may be longer than most.
     let needed = bytes(0.9 * mean * roots.len() as f64);
-    let what_for = format!("to grow {} of them", roots.len());
+    let what_for = format!("growing {} of them", roots.len());
     check_memory(at, "hair.strands", growth.strands, needed, &what_for, "show fewer strands")
 }

@@ -25,17 +25,17 @@ pub struct Imported {
     pub report: ImportReport,
     /// Number of frames, of which the first is used; 1 for hair that does not move.
     pub frames: usize,
-    /// When the shot begins that it is of (s), where it says so.
+    /// Start of its shot (s), if the file has one.
     pub(crate) begins: Option<f64>,
-    /// What it says of its own space.
+    /// Unit and axes that it declares.
     pub(crate) declared: DeclaredSpace,
-    /// Whether the head is out of it as well.
+    /// Whether it is also the file of the head.
     pub(crate) of_head: bool,
-    /// Strands by which it is judged, as they are in it (its unit and axes).
+    /// Strands by which its seat is judged, unchanged (its unit and axes).
     pub(crate) judged: Strands,
 }
 
-/// The strands that are wanted out of a file.
+/// The wanted strands of a file.
 pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) -> Result<Groom> {
     let GroomInputs { model, first, wanted, .. } = inputs;
     let scene = &model.inputs.file;
@@ -54,7 +54,7 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
     let tip_first = match settings.root {
         RootEnd::First => None,
         RootEnd::Last => Some(vec![true; hair.strands.len()]),
-        // Few tell whether it is worth asking all.
+        // A few tell whether it is worth checking all.
         RootEnd::Skin => root_ends::tip_first(&judged, &model.head, &placement)
             .and_then(|_| root_ends::tip_first(&hair.strands, &model.head, &Placement::default())),
     };
@@ -96,7 +96,7 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
     Ok(Groom { inputs: inputs.clone(), hair, of_scene, shard, imported, ids, first })
 }
 
-/// Numbers of the first strands of the farthest-first order of the roots.
+/// Indices of the first strands in the farthest-first order of the roots.
 fn farthest_first(hair: &Hair, count: usize, at: At<'_>) -> Result<Vec<usize>> {
     let roots: Vec<Vec3> = hair.strands.iter().map(|strand| strand[0]).collect();
     subset::evenly_while(&roots, count, &|| (at.goes_on)(0.0)).ok_or(Error::Cancelled)
@@ -109,12 +109,12 @@ fn evenly(hair: &Hair, count: usize, at: At<'_>) -> Result<Vec<usize>> {
     Ok(chosen)
 }
 
-/// The same strands in so many equally long segments each.
+/// The same strands with this many equally long segments each.
 fn cut(hair: Hair, segments: Option<usize>, at: At<'_>) -> Result<Hair> {
     let Some(segments) = segments else { return Ok(hair) };
     let points = (hair.strands.len() as u64).saturating_mul(segments as u64 + 1);
     let needed = points.saturating_mul(size_of::<Vec3>() as u64);
-    check_memory(at, "hair.segments", segments, needed, "to cut it", "cut into fewer, or show fewer strands")?;
+    check_memory(at, "hair.segments", segments, needed, "cutting the strands", "ask for fewer, or show fewer strands")?;
     check_points("hair.segments", segments, hair.strands.len()).map_err(|refused| at.refusal(refused))?;
     Ok(hair.resampled(segments + 1))
 }

@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::scalar::{Scalar, Vector};
 use crate::vector::{cross, scale, subtract};
 
-/// C of a segment of this length whose middle has so much hair beyond it (cm): that of a force of this strength along r on all of that, so
-/// that a strand settles along F + H r.
+/// C of a segment of this length with this much hair beyond its middle (cm): that of a force of this strength along r
+/// on all of it, so that a strand settles along F + H r.
 pub fn moment_per_radian(push: f64, hold: f64, beyond: f64, length: f64) -> f64 {
     push * hold * beyond * length
 }
@@ -16,7 +16,7 @@ pub fn moment<S: Scalar>(hold: f64, rest: DVec3, d: Vector<S>) -> Vector<S> {
     d.cross(rest.into()).times(hold)
 }
 
-/// The same for one lane. Of the difference, which is exactly 0 at rest.
+/// The same for one lane, from the difference, which is exactly 0 at rest.
 #[inline(always)]
 pub fn moment_lane(hold: f32, rest: [f32; 3], d: [f32; 3]) -> [f32; 3] {
     scale(hold, cross(subtract(d, rest), rest))

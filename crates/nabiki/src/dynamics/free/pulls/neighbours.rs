@@ -5,8 +5,8 @@ use glam::{DMat3, DVec3};
 use crate::dynamics::free::grid::Crowd;
 use crate::scalar::{Scalar, Vector};
 
-/// The force of its neighbours on a point that stands still (head space), and what they hold against its velocity, in the unit of the force
-/// for each cm a frame. With that they change as the place does.
+/// The force of the neighbours on a point at rest (head space), and their drag on its velocity, in the unit of the
+/// force per cm per frame.
 #[inline(never)]
 pub fn force<S: Scalar>(crowd: &Crowd, p: Vector<S>) -> (Vector<S>, S) {
     /// In a grid of centimetres, read in f32.

@@ -27,12 +27,12 @@ pub fn on_head(pose: &Pose, gravity: f64) -> DVec3 {
     pose.rotation.as_dquat().inverse() * DVec3::new(0.0, -gravity, 0.0)
 }
 
-/// The strength of hold that a segment needs so that weight does not tip it over: that of its part along the segment, where that stands up.
+/// The strength of hold that a segment needs so that weight does not tip it over: its part along the segment, if the segment stands up.
 pub fn held_up(pose: &Pose, gravity: f64, rest: DVec3) -> f64 {
     (-on_head(pose, gravity).dot(rest)).max(0.0)
 }
 
-/// The moment against what hangs on the end of a segment that goes this `way`.
+/// The moment against what hangs on the end of a segment with direction `way`.
 pub fn moment(way: DVec3, hangs: DVec3) -> DVec3 {
     hangs.cross(way)
 }

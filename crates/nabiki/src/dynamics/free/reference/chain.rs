@@ -10,28 +10,28 @@ use crate::scalar::{Scalar, Turn, Vector};
 /// How far the step looks ahead: 1/2 would keep all swings, and 1 would damp them.
 pub const THETA: f64 = 0.6;
 
-/// How many times the joints of a bent strand, times the square of the sine of the bend, resist a turn in the implicit step besides what they
-/// do in a straight one: Q knows nothing of the ways in which segments turn that do not point alike.
+/// How strongly the joints of a bent strand, times the squared sine of the bend, resist a turn in the implicit step, in
+/// addition to a straight one. Q does not contain the turns of segments that point in different directions.
 pub const BENT: f64 = 4.0;
 
-/// How many times a strand is solved again that something presses, each time with tensions that know how its joints answered before. With 2, none
-/// of 3,000 strands of a new scene goes on hopping under the earth's gravity.
+/// How often a pressed strand is solved again, each time with tensions that know how its joints answered before. With
+/// 2, none of 3,000 strands of a new scene keeps hopping under the earth's gravity.
 pub const ROUNDS_PRESSED: usize = 2;
 
-/// What the segments of a strand are given, and room for what the solve makes of it.
+/// The input of the segments of a strand, and working memory of the solve.
 #[derive(Clone, Debug)]
 pub struct Chain<S> {
-    /// b_i: how all but the chain itself and the air accelerate a node (cm a frame^2).
+    /// b_i: the acceleration of a node by all but the chain and the air (cm per frame^2).
     pub pushed: Vec<Vector<S>>,
-    /// beta_i: what air and neighbours take of a node's speed (1 a frame).
+    /// beta_i: the share of a node's speed that air and neighbours take (1 per frame).
     pub drag: Vec<S>,
-    /// R_(i-1), which has carried the segments before this one from their rest to where they are.
+    /// R_(i-1), which has carried the segments before this one from rest to their current directions.
     pub frames: Vec<Turn<S>>,
-    /// Velocities of the nodes (cm a frame), the root's first.
+    /// Velocities of the nodes (cm per frame), the root's first.
     pub velocities: Vec<Vector<S>>,
     /// R_(i-1) r_i.
     carried: Vec<Vector<S>>,
-    /// By how much a segment turns about itself in a step, and the part of that which the joint after it hands on.
+    /// The turn of a segment about itself in a step, and the share of it that the joint after it passes on.
     turns: Vec<Turn<S>>,
     handed: Vec<S>,
     bending: Vec<S>,
@@ -39,9 +39,9 @@ pub struct Chain<S> {
     /// T_i.
     tensions: Vec<S>,
     upper: Vec<S>,
-    /// By how much the joints' forces on a segment change in the step, where that is known; else 0.
+    /// The change of the joints' force on a segment during the step, if known; else 0.
     answers: Vec<Vector<S>>,
-    /// s_i - T_i d_i, and what becomes of the increments.
+    /// s_i - T_i d_i, and the right side of the increments.
     forces: Vec<Vector<S>>,
     driven: Vec<Vector<S>>,
     bands: Vec<[S; 5]>,
@@ -69,8 +69,8 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Frames along the strand, its joints' moments, and how its nodes go. Joints are twisted on to where no segment turns about itself: that
-    /// comes to rest at once.
+    /// Frames along the strand, its joints' moments, and velocities of its nodes. Joints are twisted until no segment
+    /// turns about itself: twist settles at once.
     #[inline(always)]
     pub fn bend(&mut self, segments: &mut [Segment<S>]) {
         self.answers.fill(Vector::zero());
@@ -79,7 +79,7 @@ impl<S: Scalar> Chain<S> {
             let (d, carried) = (segment.direction, frame.of_known(segment.moved_by.rest));
             (self.frames[i], self.carried[i], self.bending[i]) = (frame, carried, segment.bending);
             frame = Turn::about(d, segment.twist).after(Turn::smallest(carried, d)).after(frame);
-            // Half-way between the two segments, so that it gives no energy.
+            // Halfway between the two segments, so that it adds no energy.
             let carries = segment.moved_by.carries;
             self.moments[i] = (self.frames[i].of_known(carries) + frame.of_known(carries)).times(0.5);
             self.velocities[i + 1] = self.velocities[i] + segment.increment.times(segment.moved_by.shape.length);
@@ -94,12 +94,12 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Twists the joints by so much that every segment is in balance about itself: a tridiagonal system.
+    /// Twists the joints so that every segment is balanced about itself: a tridiagonal system.
     #[inline(always)]
     fn untwist(&mut self, segments: &mut [Segment<S>]) {
         let n = segments.len();
         let (zero, one) = (S::from(0.0), S::from(1.0));
-        // Of the joint before segment i, the part of a turn of the segment before it that it hands on: kappa_i.
+        // For the joint before segment i, the share of a turn of the segment before it that it passes on: kappa_i.
         let handed = |i: usize, segments: &[Segment<S>], carried: &[Vector<S>]| {
             let (d, c, before) = (segments[i].direction, carried[i], segments[i - 1].direction);
             before.dot(d + c) / (one + d.dot(c))
@@ -120,7 +120,7 @@ impl<S: Scalar> Chain<S> {
             }
             let lower = if i > 0 { -(stiff * kappa) } else { zero };
             let middle = middle - lower * above;
-            // What is held does not turn.
+            // A held segment does not turn.
             let over = if segments[i].moved_by.lightness > 0.0 && middle.value() > 0.0 { one / middle } else { zero };
             above = upper * over;
             turned = (right - lower * turned) * over;
@@ -139,7 +139,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// What drives the increments, but for the drag on them and what rest leaves of rounding: `l w' = l w + h (driven - ...)`.
+    /// What drives the increments, except for the drag on them and the rounding error at rest: `l w' = l w + h (driven - ...)`.
     #[inline(always)]
     pub fn drive(&mut self, segments: &[Segment<S>]) -> &mut [Vector<S>] {
         let n = segments.len();
@@ -172,14 +172,14 @@ impl<S: Scalar> Chain<S> {
         &mut self.driven
     }
 
-    /// How the forces on both sides of a node accelerate it.
+    /// The acceleration of a node by the forces on both sides of it.
     #[inline(always)]
     fn across(&self, i: usize, segments: &[Segment<S>]) -> Vector<S> {
         let beyond = if i + 1 < segments.len() { self.forces[i + 1] } else { Vector::zero() };
         (self.forces[i] - beyond).times(segments[i].moved_by.lightness)
     }
 
-    /// The tensions with which no segment becomes longer or shorter: a tridiagonal system.
+    /// The tensions that keep every segment's length: a tridiagonal system.
     #[inline(always)]
     fn pull_taut(&mut self, segments: &[Segment<S>]) {
         let n = segments.len();
@@ -212,7 +212,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Q, by which the forces answer a turn: of row i what stands before the diagonal, on it and after it.
+    /// Q, the forces' answer to a turn: for row i the entries before, on and after the diagonal.
     #[inline(always)]
     fn stiffness(&self, i: usize, segments: &[Segment<S>]) -> [S; 3] {
         let FreeSegment { shape, hold, .. } = segments[i].moved_by;
@@ -223,7 +223,7 @@ impl<S: Scalar> Chain<S> {
         [-here.times(over), tension + (here + next + bent.times(BENT) + S::from(hold)).times(over), -next.times(over)]
     }
 
-    /// B of the joint before segment i, times the square of the sine of its bend; none of the first joint.
+    /// B of the joint before segment i, times the squared sine of its bend; 0 for the first joint.
     #[inline(always)]
     fn bent(&self, i: usize, segments: &[Segment<S>]) -> S {
         match (i.checked_sub(1).map(|before| &segments[before]), segments.get(i)) {
@@ -245,7 +245,7 @@ impl<S: Scalar> Chain<S> {
         for (i, segment) in segments.iter().enumerate() {
             let (length, lightness) = (segment.moved_by.shape.length, segment.moved_by.lightness);
             let next = if i + 1 < n { self.stiffness(i + 1, segments) } else { [zero; 3] };
-            // How turns of the segments from i - 1 to i + 2 accelerate the node.
+            // The acceleration of the node by turns of the segments from i - 1 to i + 2.
             let node = [here[0], here[1] - next[0], here[2] - next[1], -next[2]].map(|x| x.times(lightness));
             let row = [-before[0], node[0] - before[1], node[1] - before[2], node[2] - before[3], node[3]];
             before = [node[0], node[1], node[2], node[3], zero];
@@ -287,7 +287,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// After a solve: takes down how the joints answer the turns that it found, so that the tensions of another know of it.
+    /// After a solve: records how the joints answer the turns found, for the tensions of the next solve.
     #[inline(always)]
     pub fn answer(&mut self, segments: &[Segment<S>], h: f64) {
         for i in 0..segments.len() {

@@ -9,13 +9,13 @@ use crate::dynamics::{Dynamics, FrameInput};
 use crate::free_form::FreeMotion;
 use crate::pseudo_force::Gamma;
 
-/// All that surrounds a strand in one frame, but for the air and its neighbours.
+/// The surroundings of all strands in one frame, except the air and their neighbours.
 pub(in crate::dynamics) struct Common<'a> {
-    /// Number of the frame to arrive at.
+    /// Number of the frame to compute.
     pub(super) frame: u32,
     pub(super) gamma: Gamma,
     pub(super) head: HeadFrame,
-    /// The weight under which hair lies in balance at rest.
+    /// The weight that balances the hair at rest.
     pub(super) rest_weight: DVec3,
     /// The bodies at the end of each step of the frame.
     pub(super) bodies: Vec<Vec<PlacedBody<'a>>>,

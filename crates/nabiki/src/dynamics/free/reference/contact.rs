@@ -1,4 +1,4 @@
-//! Contact in f64: bodies where they are in one frame, and how a segment is kept out of them.
+//! Contact in f64: bodies in one frame, and how a segment is kept out of them.
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -9,7 +9,7 @@ use crate::obstacle::Reading;
 use crate::pose::Pose;
 use crate::scalar::{Scalar, Vector};
 
-/// What each point is kept out of, and how far from it (cm).
+/// The surface that each point is kept out of, and at what distance (cm).
 pub fn kept_from(body: &Body, rest_pose: &Pose, positions: &[DVec3]) -> Vec<(Surface, f64)> {
     let body_from_head = exact(body.head_from_body(0, rest_pose)).inverse();
     let kept = |p: &DVec3| {
@@ -25,7 +25,7 @@ pub struct PlacedBody<'a> {
     frame: u32,
     contact: Contact,
     body_from_head: DAffine3,
-    /// Takes points of the body from where they are at the end of the step to where they were at its beginning, in head space; and back.
+    /// Transforms points of the body from their place at the end of the step to that at its beginning, in head space; and the inverse.
     before_from_now: DAffine3,
     now_from_before: DAffine3,
     moves: bool,
@@ -37,31 +37,31 @@ pub struct PlacedBody<'a> {
 #[derive(Clone, Copy)]
 pub struct Moving<S> {
     pub at: Vector<S>,
-    /// By how much the head's turn has left it behind in this step.
+    /// How far the head's turn has left it behind in this step.
     pub shifted: Vector<S>,
     pub velocity: Vector<S>,
     pub acceleration: Vector<S>,
-    /// By how much a body pushed it outward in the step before, and by what it still went in.
+    /// How strongly a body pushed it outward in the step before, including what it still moved inward.
     pub pressed: S,
 }
 
-/// The end of a segment that turns about its beginning (head space, cm).
+/// The end of a segment that turns around its beginning (head space, cm).
 pub struct Touch<S> {
-    /// p_(i-1), where it is now.
+    /// The current p_(i-1).
     pub from: Vector<S>,
     pub length: f64,
-    /// How far p_i is kept from the skin.
+    /// Clearance of p_i from the skin.
     pub clearance: f64,
-    /// d at the beginning of the step, turned back as far as it is left behind by the head's turn.
+    /// d at the beginning of the step, turned back by the share of the head's turn that it is left behind.
     pub was: Vector<S>,
-    /// What p_i is moved by in the step besides: by the segments before this one, and by what the head's turn leaves behind.
+    /// The other motion of p_i in the step: of the segments before this one, and what the head's turn leaves behind.
     pub carried: Vector<S>,
-    /// What p_i is kept out of.
+    /// The surface that p_i is kept out of.
     pub surface: Surface,
 }
 
 impl<'a> PlacedBody<'a> {
-    /// Body number `b` at the end of a step of a frame: its number, from 1 on, and how many there are.
+    /// Body number `b` at the end of a step of a frame, given by the step's number, from 1 on, and their count.
     pub fn new(b: usize, body: &'a Body, input: &FrameInput, [step, steps]: [u32; 2]) -> Self {
         let [now, before] = input.head_from_body(b, body, [step, steps]).map(exact);
         Self {
@@ -76,15 +76,15 @@ impl<'a> PlacedBody<'a> {
         }
     }
 
-    /// How far a node is from touching the body at the end of the step if it goes along with it; infinity far away.
-    /// `(surface, clearance)`: what it is kept out of, and how far from it.
+    /// How far a node that moves with the body is from touching it at the end of the step; infinity far away.
+    /// `(surface, clearance)`: what it is kept out of, and at what distance.
     pub fn clear<S: Scalar>(&self, (surface, clearance): (Surface, f64), node: &Moving<S>) -> f64 {
         let reading = self.reading(self.taken_along(node.at).value(), surface);
         reading.map_or(f64::INFINITY, |reading| f64::from(reading.distance) - clearance)
     }
 
-    /// How the body pushes a node in the step: against what carries it in, against what pressed it in the step before, and by friction. With what
-    /// of that presses outward (cm a frame^2), and how far the node is from the body (cm).
+    /// The push of the body on a node in the step: against the motion inward, against what pressed it in the step before, and friction.
+    /// Also the outward pressing part (cm per frame^2), and the distance of the node from the body (cm).
     pub fn against<S: Scalar>(
         &self,
         (surface, clearance): (Surface, f64),
@@ -97,7 +97,7 @@ impl<'a> PlacedBody<'a> {
         if let Some(bent) = self.bent(carried.value()) {
             of_body += bent.into();
         }
-        // What is too deep already is turned out, and not thrown.
+        // A node that is already too deep is turned out, not thrown out.
         let gap = at_least_0(distance - S::from(clearance));
         let leaves = (node.velocity.times(h) - of_body).dot(normal) + gap;
         let pressed = node.pressed.times(h * h) - at_least_0(leaves);
@@ -109,18 +109,18 @@ impl<'a> PlacedBody<'a> {
         }
         let along = moved + node.shifted;
         let over = 1.0 / (h * h);
-        // A speed is stopped once; what presses goes on to.
+        // Speed is stopped once; a pressing force continues.
         let presses = at_least_0(inward - at_least_0(-leaves));
         Some((self.slowed(along, normal, along.dot(normal), inward).times(over), presses.times(over), gap))
     }
 
-    /// Where the body takes a point in the step that goes along with it.
+    /// Where the body takes a point that moves with it in the step.
     fn taken_along<S: Scalar>(&self, p: Vector<S>) -> Vector<S> {
         if self.moves { p.taken_by(&self.now_from_before) } else { p }
     }
 
-    /// Keeps a segment that would go along `direction`, with this `increment`, out of the body, and tells by how much its end went inward in the
-    /// step (cm); `None` where it touches nothing.
+    /// Keeps a segment that would move along `direction`, with this `increment`, out of the body, and returns how far
+    /// its end moved inward in the step (cm); `None` if it touches nothing.
     #[inline(always)]
     pub fn stop<S: Scalar>(
         &self,
@@ -131,7 +131,7 @@ impl<'a> PlacedBody<'a> {
         (self.depth(direction, touch)? > 0.0).then(|| self.stopped(direction, increment, touch))
     }
 
-    /// Turns a segment out of the body that another body has turned into it; `None` where none has.
+    /// Turns a segment out of the body after another body has turned it in; `None` if none has.
     pub fn part<S: Scalar>(
         &self,
         direction: Vector<S>,
@@ -171,7 +171,7 @@ impl<'a> PlacedBody<'a> {
         let (depth, inward) = (S::from(clearance) - distance, -moved.dot(normal));
         if inward.value() > 0.0 {
             let change = self.slowed(moved, normal, -inward, inward);
-            // Until it touched it went on as it was.
+            // Until it touched, it moved as before.
             let touching = if inward.value() > depth.value() { depth / inward } else { S::from(1.0) };
             direction = (direction.times(length) + change * touching).normalized_or(normal);
             increment += change / S::from(length);
@@ -180,8 +180,8 @@ impl<'a> PlacedBody<'a> {
         (direction, increment - direction * increment.dot(direction), at_least_0(inward))
     }
 
-    /// What contact makes of a motion against the body: so much `inward` is turned back, and of what goes along it friction takes its part.
-    /// `outward`: all of the motion along the normal.
+    /// The effect of contact on a motion against the body: `inward` of it is reversed, and friction takes its share of
+    /// the motion along the skin. `outward`: all of the motion along the normal.
     fn slowed<S: Scalar>(&self, moved: Vector<S>, normal: Vector<S>, outward: S, inward: S) -> Vector<S> {
         let along = moved - normal * outward;
         let speed = along.length();
@@ -190,8 +190,8 @@ impl<'a> PlacedBody<'a> {
         normal * inward - along * lost
     }
 
-    /// The direction nearest to where a segment would go in which its end keeps its clearance. In a fold of the skin, behind
-    /// an ear, that may be far off or not be found: then the one nearest to where the segment was, for it was free there.
+    /// The direction nearest to the segment's own in which its end keeps its clearance. In a fold of the skin, behind an ear, that may be
+    /// far off or not be found: then the one nearest to the segment's old direction, which was free.
     fn pushed_out<S: Scalar>(&self, direction: Vector<S>, touch: &Touch<S>) -> Vector<S> {
         let (pushed, depth) = self.pushed_from(direction, touch);
         if depth <= f64::from(TOLERANCE_CM) && pushed.dot(touch.was).value() > f64::from(NEAR) {
@@ -202,7 +202,7 @@ impl<'a> PlacedBody<'a> {
             return stayed;
         }
         let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
-        // Where no turn is found so, a fan of directions from there outward.
+        // If no turn is found this way, tries a fan of directions from there outward.
         let normal = self.read(touch.from + best.times(touch.length), touch.surface).map_or(best, |(_, normal)| normal);
         for step in 1..=FAN {
             if least <= f64::from(TOLERANCE_CM) {
@@ -217,7 +217,7 @@ impl<'a> PlacedBody<'a> {
         best
     }
 
-    /// Turns a segment out along the gradient until its end keeps its clearance, and says how deep it then is.
+    /// Turns a segment out along the gradient until its end keeps its clearance, and returns its depth then.
     fn pushed_from<S: Scalar>(&self, mut direction: Vector<S>, touch: &Touch<S>) -> (Vector<S>, f64) {
         let &Touch { from, length, clearance, .. } = touch;
         let mut pushes = 0;
@@ -249,12 +249,12 @@ impl<'a> PlacedBody<'a> {
         Some((distance, S::known_vector(head_from_body * in_body, p, curved)))
     }
 
-    /// What is sampled at a point of head space; `None` far away.
+    /// The sample at a point of head space; `None` far away.
     fn reading(&self, p: DVec3, surface: Surface) -> Option<Reading> {
         self.body.surface(surface).read(self.body_from_head.transform_point3(p).as_vec3(), self.frame)
     }
 
-    /// What a body that bends has moved its point at `p` by, besides the way of its own space, in a step; its derivatives are not followed.
+    /// The motion of a point at `p` by the bending of the body in a step, besides the motion of its space; without its derivatives.
     fn bent(&self, p: DVec3) -> Option<DVec3> {
         let obstacle = self.body.shape.obstacle();
         (obstacle.farthest_moved(self.frame) > 0.0).then(|| {
@@ -264,14 +264,14 @@ impl<'a> PlacedBody<'a> {
     }
 }
 
-/// Turned about its beginning, the nearest way, until its end is farther out along the normal by `rise` of its length: all
-/// the way out of a plane, however steeply it points in. By [`TURN`] at the most.
+/// Turned around its beginning, the shortest way, until its end is farther out along the normal by `rise` of its
+/// length: all the way out of a plane, however steeply it points in. At most by [`TURN`].
 fn turned_out<S: Scalar>(direction: Vector<S>, normal: Vector<S>, rise: S) -> Vector<S> {
     let along = direction.dot(normal);
     let [cos, sin] = TURN.map(f64::from);
     let mut outward = along + rise;
     if along.value() < cos {
-        // Nothing is differentiated where the sine of the angle to the normal vanishes.
+        // Not differentiable where the sine of the angle to the normal vanishes.
         let across = S::from(1.0) - along * along;
         let across = if across.value() > 0.0 { across.sqrt() } else { S::from(0.0) };
         let farthest = along.times(cos) + across.times(sin);
@@ -280,7 +280,7 @@ fn turned_out<S: Scalar>(direction: Vector<S>, normal: Vector<S>, rise: S) -> Ve
     if outward.value() >= 1.0 {
         return normal;
     }
-    // To what points straight in, all ways are alike.
+    // For a segment that points straight in, all ways are alike.
     let any = normal.value().any_orthonormal_vector().into();
     let aside = (direction - normal * along).normalized_or(any);
     (aside * (S::from(1.0) - outward * outward).sqrt() + normal * outward).normalized_or(normal)

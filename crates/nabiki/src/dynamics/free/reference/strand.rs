@@ -1,4 +1,4 @@
-//! One strand, and the step that moves it, in numbers of any kind.
+//! One strand, and the step that moves it, over any scalar.
 
 use glam::{DQuat, DVec3, Vec3};
 
@@ -22,21 +22,21 @@ use crate::scalar::{Scalar, Turn, Vector};
 pub(in crate::dynamics) struct Strand<S> {
     segments: Vec<Segment<S>>,
     chain: Chain<S>,
-    /// How field and neighbours accelerate each node in a frame (cm a frame^2).
+    /// The acceleration of each node by field and neighbours in a frame (cm per frame^2).
     blown: Vec<Vector<S>>,
-    /// Of each segment, what the solve leaves of roundings at rest.
+    /// For each segment, the rounding error that the solve leaves at rest.
     residual: Vec<Vector<S>>,
     /// Root first (head space, cm).
     positions: Vec<Vector<S>>,
-    /// By how much the head's turn has left each point behind in a step.
+    /// How far the head's turn has left each point behind in a step.
     shifted: Vec<Vector<S>>,
-    /// How far each node is from touching a body at the beginning of a step.
+    /// The distance of each node from touching a body at the beginning of a step.
     clear: Vec<S>,
-    /// For each body, what every point is kept out of, and how far from it (cm).
+    /// For each body, the surface that every point is kept out of, and at what distance (cm).
     kept_from: Vec<Vec<(Surface, f64)>>,
-    /// The node that the head carries: the root, or the last that a tie holds.
+    /// The node that the head carries: the root, or the last one that a tie holds.
     anchor: usize,
-    /// How it differs from what the settings say.
+    /// How it differs from the settings.
     own: Own,
 }
 
@@ -46,17 +46,17 @@ pub(super) struct Segment<S> {
     pub moved_by: FreeSegment,
     /// B of the joint at its beginning.
     pub bending: S,
-    /// What the air takes of its end's speed.
+    /// The share of its end's speed that the air takes.
     air: S,
     pub direction: Vector<S>,
     pub increment: Vector<S>,
-    /// By how much the joint at its beginning is twisted (rad).
+    /// Twist of the joint at its beginning (rad).
     pub twist: S,
-    /// By how much a body pushes its end outward (cm a frame^2).
+    /// How strongly a body pushes its end outward (cm per frame^2).
     pressed: S,
 }
 
-/// Factors on the settings that may be unknown.
+/// Factors on the settings, which may be unknowns.
 pub(in crate::dynamics) struct Springs<S> {
     /// Of the stiffness.
     pub stiffness: S,
@@ -65,7 +65,7 @@ pub(in crate::dynamics) struct Springs<S> {
 }
 
 impl<S: Scalar> Default for Springs<S> {
-    /// The settings as they are.
+    /// The settings unchanged.
     fn default() -> Self {
         Self { stiffness: S::from(1.0), settle: S::from(1.0) }
     }
@@ -86,18 +86,18 @@ impl<S: Scalar> Segment<S> {
         }
     }
 
-    /// Stays behind the head's turn, `share` of it.
+    /// Leaves it behind by `share` of the head's turn.
     fn stay_behind(&mut self, axis: DVec3, angle: f64, share: f64) {
         let back = Turn::from(DQuat::from_axis_angle(axis, -self.moved_by.drag * share * angle));
         self.direction = back.of(self.direction);
         self.increment = back.of(self.increment);
     }
 
-    /// Goes on for a step of `h` frames at whose end its increment is w: the direction then, and the increment carried there.
+    /// Moves it through a step of `h` frames with the increment w at the end: the new direction, and the increment carried there.
     #[inline(always)]
     fn moved(&self, w: Vector<S>, h: f64) -> (Vector<S>, Vector<S>) {
         let d = self.direction;
-        // What the lengths leave of it, and no more than an eighth of a turn or so.
+        // The rest that the lengths leave, and no more than about an eighth of a turn.
         let mut w = w - d * w.dot(d);
         let speed = w.length_squared().times(h * h);
         if speed.value() > 1.0 {
@@ -142,7 +142,7 @@ impl<S: Scalar> Strand<S> {
         Ok(strand)
     }
 
-    /// Takes what the solve leaves of roundings at rest.
+    /// Stores the rounding error that the solve leaves at rest.
     fn take_rest(&mut self, free: &FreeMotion) {
         let Self { segments, chain, residual, .. } = self;
         let weight = Vector::from(weight::on_head(&free.rest_pose, f64::from(free.form.gravity)));
@@ -154,7 +154,7 @@ impl<S: Scalar> Strand<S> {
         residual.copy_from_slice(chain.drive(segments));
     }
 
-    /// A strand that stands where another does, of which all numbers are known: nothing changes them.
+    /// A strand in the state of another, with constants for all numbers.
     pub fn of_known(known: &Strand<f64>) -> Self {
         let segment = |segment: &Segment<f64>| Segment {
             moved_by: segment.moved_by,
@@ -185,7 +185,7 @@ impl<S: Scalar> Strand<S> {
         &self.positions
     }
 
-    /// What the increments alone move every point by in a frame (cm).
+    /// The motion of every point by the increments alone in a frame (cm).
     pub fn velocities(&self) -> impl Iterator<Item = DVec3> {
         let moved = self.segments.iter().scan(DVec3::ZERO, |velocity, segment| {
             *velocity += segment.moved_by.shape.length * segment.increment.value();
@@ -194,7 +194,7 @@ impl<S: Scalar> Strand<S> {
         std::iter::once(DVec3::ZERO).chain(moved)
     }
 
-    /// Moves it by one frame. `crowd`: what its neighbours left in the frame before.
+    /// Moves it by one frame. `crowd`: the neighbours' grid of the frame before.
     #[inline(always)]
     pub fn step(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
         self.blow(common, air, crowd);
@@ -211,7 +211,7 @@ impl<S: Scalar> Strand<S> {
             self.chain.bend(&mut self.segments);
             self.push(common, bodies);
             self.solve(share);
-            // What presses a node its joints hold, and it does not go where it is pushed: nor do tensions have to take the others there.
+            // Joints hold a pressed node, so it does not move as pushed: tensions need not take the other nodes there.
             if self.segments.iter().any(|segment| segment.pressed.value() > 0.0) {
                 for _ in 0..ROUNDS_PRESSED {
                     self.chain.answer(&self.segments, share);
@@ -231,7 +231,7 @@ impl<S: Scalar> Strand<S> {
         self.chain.solve(&self.segments, h);
     }
 
-    /// Asks for what is felt once a frame: the field, and what neighbours do.
+    /// Evaluates what acts once a frame: the field and the neighbours.
     #[inline(always)]
     fn blow(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
         let (times, turn) = self.own.wind(common.frame);
@@ -251,7 +251,7 @@ impl<S: Scalar> Strand<S> {
         }
     }
 
-    /// All that accelerates the nodes but the chain itself.
+    /// All acceleration of the nodes except by the chain.
     #[inline(always)]
     fn push(&mut self, common: &Common, bodies: &[PlacedBody]) {
         let head = &common.head;
@@ -270,7 +270,7 @@ impl<S: Scalar> Strand<S> {
             if bodies.is_empty() || lightness == 0.0 {
                 continue;
             }
-            // A body carries what the weight that rest is in balance with presses on it.
+            // A body carries what the weight that balances the rest presses on it.
             let carried = self.chain.frames[i].of_known(common.rest_weight).times(push);
             let speed = self.chain.velocities[i + 1];
             let net = other + (weight - carried) - speed * self.chain.drag[i];
@@ -279,7 +279,7 @@ impl<S: Scalar> Strand<S> {
             let none = S::from(0.0);
             let moving = Moving { at, shifted, velocity: speed, acceleration: net, pressed: none };
             let clear = |b: usize| bodies[b].clear(self.kept_from[b][i + 1], &moving);
-            // What pressed it in the step before is of the nearest body.
+            // The push of the step before belongs to the nearest body.
             let nearest = (1..bodies.len()).fold(0, |nearest, b| if clear(b) < clear(nearest) { b } else { nearest });
             let before = std::mem::replace(&mut segment.pressed, none);
             for (b, body) in bodies.iter().enumerate() {
@@ -295,7 +295,7 @@ impl<S: Scalar> Strand<S> {
         }
     }
 
-    /// Turns the segments by what the solve found, and out of bodies, from root to tip.
+    /// Turns the segments as the solve says, and out of bodies, from root to tip.
     #[inline(always)]
     fn go(&mut self, common: &Common, bodies: &[PlacedBody], h: f64) {
         let Self { segments, chain, positions, shifted, clear, kept_from, .. } = self;
@@ -305,7 +305,7 @@ impl<S: Scalar> Strand<S> {
             let from = positions[i];
             let length = segment.moved_by.shape.length;
             let (mut direction, mut increment) = segment.moved(chain.solved(i), h);
-            // What is held goes with the head, whatever passes.
+            // Held segments move with the head in any case.
             let bodies = if segment.moved_by.lightness == 0.0 { &[][..] } else { bodies };
             if !bodies.is_empty() {
                 let left_behind = if common.head.turn.is_some() { shifted[i + 1] } else { Vector::zero() };
@@ -316,7 +316,7 @@ impl<S: Scalar> Strand<S> {
                 };
                 if let Some((there, turned, inward)) = kept_out(bodies, (direction, increment.times(h)), touched) {
                     (direction, increment) = (there, turned.times(1.0 / h));
-                    // Beyond the way that it had: what it was stopped in is not what presses it.
+                    // Only beyond the motion it had: the part that was stopped is not what presses it.
                     let beyond = inward - clear[i];
                     if beyond.value() > 0.0 {
                         segment.pressed += beyond.times(f64::from(ANSWER) / (h * h));
@@ -329,7 +329,7 @@ impl<S: Scalar> Strand<S> {
         }
     }
 
-    /// Puts the strand together from its root outward.
+    /// Computes the points of the strand from its root outward.
     fn place(&mut self) {
         let mut p = self.positions[0];
         for (segment, position) in self.segments.iter().zip(&mut self.positions[1..]) {
@@ -339,8 +339,8 @@ impl<S: Scalar> Strand<S> {
     }
 }
 
-/// Keeps a segment that would go along this direction, by this turn, out of all bodies, and tells by how much its end went inward (cm); `None`
-/// where it touches none. What one body has turned may be in another: a corner is left by turns.
+/// Keeps a segment that would move along this direction, by this turn, out of all bodies, and returns how far its end moved inward (cm);
+/// `None` if it touches none. A turn out of one body may lead into another: this alternates until the segment leaves the corner.
 #[inline(always)]
 fn kept_out<S: Scalar>(
     bodies: &[PlacedBody],
@@ -372,7 +372,7 @@ fn kept_out<S: Scalar>(
 
 #[cfg(test)]
 impl Strand<f64> {
-    /// Stands as segments of these directions, increments, twists and pushes do.
+    /// Sets the directions, increments, twists and pushes of the segments.
     pub fn stand(&mut self, segments: impl IntoIterator<Item = (DVec3, DVec3, f64, f64)>) {
         for (segment, (direction, increment, twist, pressed)) in self.segments.iter_mut().zip(segments) {
             (segment.direction, segment.increment) = (direction.into(), increment.into());

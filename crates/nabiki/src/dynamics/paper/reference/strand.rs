@@ -1,4 +1,4 @@
-//! One strand, and the equations that move it, in numbers of any kind.
+//! One strand, and the equations that move it, over any scalar.
 
 use glam::{DMat3, Vec3};
 
@@ -10,11 +10,11 @@ use crate::error::SettingError;
 use crate::pseudo_force::Gamma;
 use crate::scalar::{Scalar, Vector};
 
-/// What all strands have in common.
+/// What is common to all strands.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Common {
     pub gamma: Gamma,
-    /// From head space to the space whose y is the polar axis, in which angles are counted.
+    /// From head space to the space of the angles, whose y is the polar axis.
     pub polar_from_head: DMat3,
 }
 
@@ -83,7 +83,7 @@ impl<S: Scalar> Strand<S> {
         Ok(strand)
     }
 
-    /// A strand that stands where another does, of which all numbers are known: nothing changes them.
+    /// A strand in the state of another, with constants for all numbers.
     pub fn of_known(known: &Strand<f64>) -> Self {
         let segment = |segment: &Segment<f64>| Segment {
             shape: segment.shape,
@@ -103,8 +103,8 @@ impl<S: Scalar> Strand<S> {
         &self.positions
     }
 
-    /// Solves i = 1 .. k; p_i at frame n decides what the force is and whether eps_i holds. `disturbed`: what turns theta
-    /// and phi of the tip besides.
+    /// Solves i = 1 .. k; p_i at frame n determines the force and whether eps_i applies. `disturbed`: the additional
+    /// turn of theta and phi at the tip.
     #[inline(always)]
     pub fn step(&mut self, common: &Common, air: &impl Air<S>, disturbed: Option<[f64; 2]>) {
         for (segment, &end) in self.segments.iter_mut().zip(&self.positions[1..]) {
@@ -122,7 +122,7 @@ impl<S: Scalar> Strand<S> {
         self.place(common);
     }
 
-    /// Puts the strand together from its root outward.
+    /// Computes the points of the strand from its root outward.
     #[inline(always)]
     fn place(&mut self, common: &Common) {
         let head_from_polar = common.polar_from_head.transpose();
