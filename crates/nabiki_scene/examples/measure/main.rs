@@ -16,10 +16,21 @@ mod reference;
 mod scene;
 
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use nabiki_scene::Scene;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> ExitCode {
+    match measure() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(refused) => {
+            eprintln!("measure: {refused}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn measure() -> Result<(), Box<dyn std::error::Error>> {
     let (mut path, mut strands, mut set) = (None, 300, Vec::new());
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
