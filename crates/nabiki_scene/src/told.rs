@@ -254,7 +254,8 @@ pub struct SwingTable {
     pub steps: Option<u32>,
     /// One row per interval of `[[force]]`.
     pub rows: Vec<SwingRow>,
-    /// The swing under the bound of all fields, if there is more than a stepped `[[force]]`.
+    /// The swing under the bound of all fields, where that exceeds the force of every row. The force is taken to pull
+    /// the same way as weight, so no swing is faster.
     pub at_most: Option<SwingRow>,
 }
 
@@ -365,9 +366,10 @@ impl SwingTable {
             first = key.through.saturating_add(1);
             row
         });
-        let rows = rows.collect();
+        let rows: Vec<SwingRow> = rows.collect();
         let strongest = built.forces.field.strongest();
-        let at_most = (!field.is_the_papers()).then(|| row([1, last], strongest, (strongest + weight).into()));
+        let exceeds = !field.is_the_papers() && rows.iter().all(|row| f64::from(strongest) > row.force);
+        let at_most = exceeds.then(|| row([1, last], strongest, (strongest + weight).into()));
         Self { length, tied, steps: form.map(FreeForm::steps), rows, at_most }
     }
 }
@@ -382,10 +384,11 @@ impl fmt::Display for SwingTable {
             Some(1) => write!(f, "; a frame is one step")?,
             Some(steps) => write!(f, "; a frame is {steps} steps")?,
         }
-        let told = self.rows.iter().map(|row| ('=', row)).chain(self.at_most.iter().map(|row| ('<', row)));
+        let told = self.rows.iter().map(|row| ("=", row)).chain(self.at_most.iter().map(|row| ("at most", row)));
         for (sign, SwingRow { frames: [first, last], force, swing }) in told {
             let interval = format!("{first} to {last}");
-            write!(f, "\n          frames {interval:<11} |F| {sign} {force:<8.2}")?;
+            let force = format!("{sign} {force:.2}");
+            write!(f, "\n          frames {interval:<11} |F| {force:<16}")?;
             swing.frames().iter().try_for_each(|frames| write!(f, " {frames:>8.0}"))?;
         }
         Ok(())

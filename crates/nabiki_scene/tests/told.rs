@@ -94,6 +94,21 @@ fn a_swing_is_slowest_at_the_root_and_fastest_at_the_tip() {
 }
 
 #[test]
+fn the_bound_of_all_fields_is_told_only_if_it_exceeds_every_force() {
+    let table = |fields: &str| {
+        let text = format!(
+            "[hair]\nstrands = 20\n[motion]\nform = \"free\"\nframes = 100\n[[force]]\nthrough = 50\nvector = [-30, 0, 40]\n\
+             [[force]]\nthrough = 100\nvector = [0, 0, 0]\n{fields}"
+        );
+        SwingTable::of(&Scene::parse(&text, Path::new("scene.toml"), &[]).unwrap().build(Shown::All).unwrap())
+    };
+    let eased = table("[wind]\nease = \"smooth\"\n");
+    assert!(eased.at_most.is_none() && !eased.to_string().contains("at most"), "{eased}");
+    let gusty = table("[gust]\nintensity = 0.3\n");
+    assert!(gusty.at_most.is_some_and(|row| row.force > 50.0) && gusty.to_string().contains("|F| at most "), "{gusty}");
+}
+
+#[test]
 fn a_head_that_leaps_is_said_and_one_that_falls_or_spins_evenly_is_not() {
     let folder = tempfile::tempdir().unwrap();
     let told = |place: &dyn Fn(f32) -> Vec3, turn: &dyn Fn(f32) -> f32| -> Vec<String> {
