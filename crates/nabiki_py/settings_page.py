@@ -17,6 +17,7 @@ Entries in a list of tables count from 0. You can repeat `--set`:
 - Paths are relative to the scene file.
 - Lists are in brackets, texts and paths in quotes.
 - F is the unit of forces, the strength of the wind. It has no dimension: with the default settings, 30 is a breeze and 100 a strong wind.
+  In a scene of `nabiki new` the numbers are [far larger](motion-forms.md#choosing).
 
 `nabiki info scene.toml` prints what a scene contains. `nabiki schema` prints these settings in a terminal. `nabiki schema --json` prints a
 JSON Schema, which lets editors complete and check scenes. Save it as `scene.schema.json` and make `#:schema scene.schema.json` the
