@@ -96,6 +96,11 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
 }
 
 impl FreeForm {
+    /// Whether strands may differ in what they make of the wind.
+    pub(crate) fn wind_differs(&self) -> bool {
+        self.variation.is_some() || self.regions.iter().any(|region| region.wind != 1.0)
+    }
+
     /// alpha: how fast the air slows a node (1/frame). The amplitude of a swing falls half as fast, to 1/e in `settle`
     /// frames.
     pub fn air(&self, along: f64) -> f64 {

@@ -132,7 +132,7 @@ impl Packed {
         if let Some((_, eps)) = &mut self.weakening {
             eps.resize(rows.end, Row::default());
         }
-        if self.free.form.variation.is_some() {
+        if self.free.form.wind_differs() {
             let own = range.clone().map(|s| self.free.own(strands.strand(s)));
             self.own.push(OwnRow::of(own));
         }

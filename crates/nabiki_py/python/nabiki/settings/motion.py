@@ -15,6 +15,7 @@ __all__ = [
     "Motion",
     "NeighbourForces",
     "PseudoForce",
+    "Region",
     "Tie",
 ]
 
@@ -227,6 +228,15 @@ class FreeSettings(Table):
         self._set('variation', value)
 
     @property
+    def regions(self) -> Tables[Region]:
+        """Parts of the hair that move differently, such as a fringe that stays."""
+        return Tables(self._scene, self._key_of('regions'), Region)
+
+    @regions.setter
+    def regions(self, value: Iterable[Region | Mapping[str, Any]] | None) -> None:
+        self._set('regions', value)
+
+    @property
     def tie(self) -> Tie:
         """A band that ties hair. Strands that pass it at rest are held from the root to the band."""
         return Tie(self._scene, self._key_of('tie'))
@@ -346,6 +356,118 @@ class LockVariation(Table):
     @seed.setter
     def seed(self, value: int | None) -> None:
         self._set('seed', value)
+
+
+class Region(Table):
+    """Hair that moves differently from the rest, such as a fringe that stays in the wind.
+
+    A strand belongs to the region if its root is near a point, or near the line from that point to a second one. Each
+    factor multiplies a setting of [free]. Where regions overlap, their factors multiply.
+    """
+
+    __slots__ = ()
+
+    @property
+    def name(self) -> str:
+        """Name of the region, for `info` and messages. Text; default: none."""
+        value: str = self._get('name')
+        return value
+
+    @name.setter
+    def name(self, value: str | None) -> None:
+        self._set('name', value)
+
+    @property
+    def near(self) -> tuple[float, float, float]:
+        """Where the region is, in the space of the head at rest. 3 numbers, each -1000 to 1000 (cm); must be given."""
+        value: tuple[float, float, float] = self._get('near')
+        return value
+
+    @near.setter
+    def near(self, value: Numbers | None) -> None:
+        self._set('near', value)
+
+    @property
+    def to(self) -> tuple[float, float, float] | None:
+        """End of the line that the region lies along, such as the other end of a parting. 3 numbers, each -1000 to 1000
+        (cm); default: a point, not a line.
+        """
+        value: tuple[float, float, float] | None = self._get('to')
+        return value
+
+    @to.setter
+    def to(self, value: Numbers | None) -> None:
+        self._set('to', value)
+
+    @property
+    def within(self) -> float:
+        """Distance up to which roots belong to it fully. Number, 0 to 1000 (cm); default: 4."""
+        value: float = self._get('within')
+        return value
+
+    @within.setter
+    def within(self, value: float | None) -> None:
+        self._set('within', value)
+
+    @property
+    def soft(self) -> float:
+        """Width of its border. Across it, the factors fade to 1. Number, 0 to 1000 (cm); default: 2."""
+        value: float = self._get('soft')
+        return value
+
+    @soft.setter
+    def soft(self, value: float | None) -> None:
+        self._set('soft', value)
+
+    @property
+    def stiffness(self) -> float:
+        """Factor on `free.stiffness`. Number, 0 to 10; default: 1."""
+        value: float = self._get('stiffness')
+        return value
+
+    @stiffness.setter
+    def stiffness(self, value: float | None) -> None:
+        self._set('stiffness', value)
+
+    @property
+    def hold(self) -> float:
+        """Factor on `free.hold`. Number, 0 to 10; default: 1."""
+        value: float = self._get('hold')
+        return value
+
+    @hold.setter
+    def hold(self, value: float | None) -> None:
+        self._set('hold', value)
+
+    @property
+    def settle(self) -> float:
+        """Factor on `free.settle`: at 2, hair swings twice as long. Number, 0.01 to 10; default: 1."""
+        value: float = self._get('settle')
+        return value
+
+    @settle.setter
+    def settle(self, value: float | None) -> None:
+        self._set('settle', value)
+
+    @property
+    def wind(self) -> float:
+        """Factor on the forces of all fields. At 0, no wind moves the hair. Number, 0 to 10; default: 1."""
+        value: float = self._get('wind')
+        return value
+
+    @wind.setter
+    def wind(self, value: float | None) -> None:
+        self._set('wind', value)
+
+    @property
+    def drag(self) -> float:
+        """Factor on `free.drag`. Number, 0 to 10; default: 1."""
+        value: float = self._get('drag')
+        return value
+
+    @drag.setter
+    def drag(self, value: float | None) -> None:
+        self._set('drag', value)
 
 
 class Tie(Table):
