@@ -137,8 +137,9 @@ impl BodyWay {
         match self {
             Self::InWorld(poses) if poses.len() <= frames as usize => {
                 let length = if poses.len() == 1 { "1 frame".to_owned() } else { format!("{} frames", poses.len()) };
-                let remedy =
-                    format!("ends before the last frame, {frames}: lower motion.frames, or give a longer motion");
+                let remedy = format!(
+                    "ends before frame {frames}, the last (frames count from 0): lower motion.frames, or give a longer motion"
+                );
                 Err(SettingError::new(format!("{name}.motion"), length, remedy))
             }
             _ => Ok(()),

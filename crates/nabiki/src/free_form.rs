@@ -44,6 +44,7 @@ settings! {
         #[serde(skip_serializing_if = "Option::is_none")]
         pub variation: Option<LockVariation> = None => "Locks", open "locks do not differ";
         /// Parts of the hair that move differently, such as a fringe that stays.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
         pub regions: Vec<Region> = Vec::new() => "Regions";
         /// A band that ties hair. Strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,6 +97,16 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
 }
 
 impl FreeForm {
+    /// At least the largest drag of any segment.
+    pub(crate) fn most_drag(&self) -> f32 {
+        self.regions.iter().fold(self.drag.largest(), |most, region| most * region.drag.max(1.0))
+    }
+
+    /// The most by which regions multiply the stiffness of hair, as if all of them overlapped.
+    pub(crate) fn most_stiffened(&self) -> f64 {
+        self.regions.iter().map(|region| f64::from(region.stiffness.max(1.0))).product()
+    }
+
     /// Whether strands may differ in what they make of the wind.
     pub(crate) fn wind_differs(&self) -> bool {
         self.variation.is_some() || self.regions.iter().any(|region| region.wind != 1.0)

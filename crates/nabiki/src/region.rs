@@ -20,7 +20,7 @@ settings! {
     /// A strand belongs to the region if its root is near a point, or near the line from that point to a second one. Each
     /// factor multiplies a setting of [free]. Where regions overlap, their factors multiply.
     pub struct Region where has_a_line {
-        /// Name of the region, for `info` and messages.
+        /// Name of the region, for `info`.
         pub name: String = String::new() => "Name";
         /// Where the region is, in the space of the head at rest.
         pub near: Vec3 = Vec3::ZERO => "Near", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;

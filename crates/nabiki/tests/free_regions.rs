@@ -2,12 +2,14 @@
 
 mod common;
 
-use common::{bits, exact, fast, field, free, hair, run, run_under, way_of_a_head, wind};
+use common::{bits, exact, fast, field, free, free_motion, hair, run, run_under, way_of_a_head, wind};
 use glam::Vec3;
+use nabiki::body::{Body, Contact};
 use nabiki::dynamics::{FrameInput, Stepper};
-use nabiki::free_form::FreeForm;
+use nabiki::free_form::{FreeForm, FreeMotion};
 use nabiki::region::Region;
 use nabiki::{Pose, Profile, Strands};
+use nabiki_groom::bust;
 
 const FRAMES: u32 = 40;
 
@@ -34,14 +36,15 @@ fn hair_of_a_region_moves_as_all_hair_does_under_its_settings() {
         stiffness: Profile::RootToTip(vec![24_000.0, 2000.0]),
         hold: Profile::Even(128.0),
         settle: Profile::Even(10.0),
-        drag: Profile::Even(0.5),
+        drag: Profile::Even(2.0),
         ..form.clone()
     };
-    let region = Region { stiffness: 2.0, hold: 4.0, settle: 0.5, drag: 0.5, ..everywhere() };
+    let region = Region { stiffness: 2.0, hold: 4.0, settle: 0.5, drag: 2.0, ..everywhere() };
     let regional = FreeForm { regions: vec![region], ..form };
     let poses = way_of_a_head(FRAMES);
     let motion = |form: &FreeForm| {
-        let dynamics = free(form.clone());
+        let bodies = vec![Body::head(&bust(), Contact::default())];
+        let dynamics = free_motion(FreeMotion { form: form.clone(), bodies, ..FreeMotion::default() });
         let exact = run_under(&mut exact(&strands, &dynamics, &wind()), &wind(), &poses);
         (bits(&exact), bits(&run_under(&mut fast(&strands, &dynamics, &wind()), &wind(), &poses)))
     };

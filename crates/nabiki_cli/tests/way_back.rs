@@ -340,7 +340,7 @@ fn what_a_format_cannot_hold_is_said() {
     let wrote = "  wrote   groom.hair: 20 strands\n";
     assert_eq!(said, ids + &unit("groom.hair") + &up("groom.hair") + wrote);
     let said = succeed(folder, "convert groom.usdc groom.tfx");
-    let points = "groom.tfx cannot hold 5 points per strand: TressFX itself loads 4, 8, 16, 32 or 64";
+    let points = "groom.tfx cannot hold 5 points per strand for TressFX itself, which loads 4, 8, 16, 32 or 64";
     assert!(said.contains(points) && said.contains("strand ids"), "{said}");
     let said = succeed(folder, "convert groom.usdc groom.abc");
     assert_eq!(said, unit("groom.abc") + &up("groom.abc") + "  wrote   groom.abc: 20 strands\n");

@@ -118,7 +118,7 @@ impl Shape {
                 Some(knots) if knots.control_points() == count => Ok(knots.pieces()),
                 Some(knots) => Err(format!("{count} control points, but knots for {}", knots.control_points())),
                 None if knots.is_empty() => self.pieces(count),
-                None => Err(format!("has no knots: the file has knots for only {} curves", knots.len())),
+                None => Err(format!("has no knots: its object has knots for the first {} only", knots.len())),
             };
             pieces.map_err(|e| Problem(format!("curve {curve}: {e}")))
         });

@@ -240,7 +240,7 @@ mod tests {
             splines(counts).walk_by(vec![clamped], points, None).unwrap_err().0
         };
         assert_eq!(refused(vec![5]), "curve 0: 5 control points, but knots for 4");
-        assert_eq!(refused(vec![4, 3]), "curve 1: has no knots: the file has knots for only 1 curves");
+        assert_eq!(refused(vec![4, 3]), "curve 1: has no knots: its object has knots for the first 1 only");
     }
 
     #[test]

@@ -100,7 +100,7 @@ pub fn spread_first_while(
 ) -> Result<Option<Vec<Root>>, SettingError> {
     hairline.check()?;
     check_count(count)?;
-    let bald = || SettingError::new("hair.hairline", "", "leaves no scalp for hair: widen it");
+    let bald = || SettingError::new("hair.hairline", "", "leaves almost no scalp for hair: widen it");
     let scalp = Scalp::new(head, hairline);
     if scalp.upto.is_empty() {
         return Err(bald());

@@ -162,7 +162,7 @@ pub fn losses(hair: &Hair) -> Vec<String> {
     let points = hair.strands.iter().next().map_or(0, <[Vec3]>::len);
     let loads = points.is_power_of_two() && (4..=64).contains(&points);
     if !loads {
-        lost.push(format!("{points} points per strand: TressFX itself loads 4, 8, 16, 32 or 64"));
+        lost.push(format!("{points} points per strand for TressFX itself, which loads 4, 8, 16, 32 or 64"));
     }
     lost.extend(passed_on(hair));
     lost

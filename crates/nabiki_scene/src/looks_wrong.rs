@@ -167,7 +167,8 @@ fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
     let empty = move |region: &Region| strands.iter().all(|strand| region.weight(strand[0]) == 0.0);
     regions.iter().enumerate().filter(move |(_, region)| empty(region)).map(|(i, region)| {
         let seen = format!(
-            "free.regions[{i}] contains no hair: no root is within {} cm of it. Correct near, or raise within",
+            "free.regions[{i}] contains none of the {} strands: no root is within {} cm of it; correct near, or raise within",
+            strands.len(),
             Short(region.within + region.soft)
         );
         Advice::new(seen)

@@ -199,14 +199,14 @@ fn bodies_that_are_none_are_refused() {
             "mesh = \"solid.obj\"",
             "mesh = \"solid.obj\"\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:13: body[0].motion = 3 frames: ends before the last frame, 3: lower motion.frames, or give a longer motion"
+        "free.toml:13: body[0].motion = 3 frames: ends before frame 3, the last (frames count from 0): lower motion.frames, or give a longer motion"
     );
     assert_eq!(
         refused(
             "mesh = \"solid.obj\"",
             "mesh = \"solid.obj\"\nmotion = { file = \"brief.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:13: body[0].motion = 1 frame: ends before the last frame, 3: lower motion.frames, or give a longer motion",
+        "free.toml:13: body[0].motion = 1 frame: ends before frame 3, the last (frames count from 0): lower motion.frames, or give a longer motion",
         "a motion of one pose is not a body that stands still"
     );
     assert_eq!(
@@ -238,7 +238,7 @@ fn bodies_that_are_none_are_refused() {
             "mesh = \"solid.obj\"",
             "mesh = \"sheet.obj\"\nsolid = false\nmotion = { file = \"short.csv\", up = \"+y\", facing = \"+x\" }"
         ),
-        "free.toml:14: body[0].motion = 3 frames: ends before the last frame, 3: lower motion.frames, or give a longer motion",
+        "free.toml:14: body[0].motion = 3 frames: ends before frame 3, the last (frames count from 0): lower motion.frames, or give a longer motion",
         "a sheet will do for what is only drawn, a motion too short will not"
     );
     for (value, remedy) in [("smoothing = -1", "0..240"), ("speed = 0", "0.01..100"), ("speed = nan", "0.01..100")] {

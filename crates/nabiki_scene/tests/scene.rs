@@ -149,7 +149,8 @@ fn where_no_hair_can_grow_the_ellipsoid_that_is_given_is_named() {
     let small = [("head.ellipsoid", "{ center = [0, 0, 0], half_axes = [1, 1, 1] }")];
     let refused = parse(GUST, &small).unwrap().build(Shown::First(2)).unwrap_err().to_string();
     assert!(
-        refused.contains("hair.hairline leaves no scalp for hair: ") && refused.contains("or correct head.ellipsoid"),
+        refused.contains("hair.hairline leaves almost no scalp for hair: ")
+            && refused.contains("or correct head.ellipsoid"),
         "{refused}"
     );
 }
@@ -214,7 +215,7 @@ fn wrong_types_say_what_was_found_and_what_must_be() {
     );
     assert_eq!(
         refused("[motion]", "[[motion]]"),
-        "scenes/gust.toml:4: motion: found a list of tables, must be a table; in a file, write [motion] above it"
+        "scenes/gust.toml:4: motion: found a list of tables, must be a table; in a file, write [motion] instead of [[motion]]"
     );
     assert_eq!(
         parse("[force]\nthrough = 50\n", &[]).unwrap_err().to_string(),

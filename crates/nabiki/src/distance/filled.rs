@@ -29,7 +29,7 @@ impl SkinDistance {
         let [nx, ny, nz] = nodes.to_array().map(|n| n as usize);
         let distance = |node: usize| {
             let place = [node % nx, node / nx % ny, node / (nx * ny)].map(|index| index as f32);
-            // One step inside the box, where rounding may put the last samples.
+            // Slightly inside the box, where rounding may put the last samples.
             self.at((low + spacing * Vec3::from(place)).min(high - 1e-3))
         };
         let distances: Vec<f32> = (0..nx * ny * nz).into_par_iter().with_min_len(4096).map(distance).collect();

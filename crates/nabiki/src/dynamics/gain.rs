@@ -96,7 +96,11 @@ pub(super) fn segment_shapes(
 ) -> Result<Vec<SegmentShape>, SettingError> {
     let thing = || format!("hair strand {s}");
     if strand.len() < 2 {
-        return Err(SettingError::new(thing(), "", format!("has {} points: a strand needs at least 2", strand.len())));
+        return Err(SettingError::new(
+            thing(),
+            "",
+            format!("needs at least 2 points, but has {}: remove it", strand.len()),
+        ));
     }
     if let Some(p) = strand.iter().find(|p| !p.is_finite()) {
         return Err(SettingError::new(thing(), p, "every coordinate must be a finite number"));

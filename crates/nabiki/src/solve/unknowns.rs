@@ -247,7 +247,7 @@ fn check(unknown: Unknown, intervals: usize, wind: &KeyedWind, dynamics: &Dynami
     let there = || match intervals {
         0 => "there is no [[force]]: ask for a new interval".to_owned(),
         1 => "the only [[force]] is number 0: name it, or ask for a new interval".to_owned(),
-        n => format!("must be one of the {n} [[force]], 0 to {}: or ask for a new interval", n - 1),
+        n => format!("must be one of the {n} [[force]], 0 to {}; or ask for a new interval", n - 1),
     };
     let free = |thing: &str, of: fn(&FreeForm) -> &Profile| match &dynamics.form {
         Form::Free(free) if of(&free.form).values().iter().all(|&value| value == 0.0) => {

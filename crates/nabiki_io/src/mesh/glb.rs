@@ -34,7 +34,7 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
         && let Some(mode) =
             document.meshes().flat_map(|mesh| mesh.primitives()).find_map(|other| not_a_surface(other.mode()))
     {
-        return Err(Error::new(format!("holds {mode} instead of the triangles requested: export triangles")));
+        return Err(Error::new(format!("holds {mode} and no triangles: export triangles")));
     }
     let mesh = check(mesh, &mut unread)?;
     unread.sort();

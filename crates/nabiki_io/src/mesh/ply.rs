@@ -123,7 +123,7 @@ pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
     }
     let vertices = mesh.positions.len();
     if let Some(v) = mesh.triangles.iter().flatten().find(|&&v| v as usize >= vertices) {
-        return Err(Error::new(format!("a face names vertex {v}, but there are {vertices}")));
+        return Err(Error::new(format!("a face names vertex {v}, but there are {vertices}, counted from 0")));
     }
     if mesh.corner_uvs.is_none() && uvs.len() == vertices {
         mesh.corner_uvs = Some(mesh.triangles.iter().map(|t| t.map(|v| uvs[v as usize])).collect());

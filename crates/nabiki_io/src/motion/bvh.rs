@@ -77,7 +77,7 @@ fn motion(words: &mut Words<'_>, joints: &[Joint], columns: usize, chain: &[usiz
         return Err(Error::new(format!("declares {frames} frames but has none: is it complete?")));
     }
     if frame as f64 != frames {
-        track.unlike = Some(format!("{frame} of the {frames} declared"));
+        track.unlike = Some(format!("{frame} frames, although {frames} are declared"));
     }
     Ok(track)
 }

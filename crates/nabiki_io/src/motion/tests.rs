@@ -75,7 +75,7 @@ fn the_frames_that_are_there_count_and_not_those_that_are_declared() {
         let (_folder, path) = written("walk.bvh", text(declared, rows).as_bytes());
         let found = read(&straight(path.clone(), Some(1.0)), 25.0).unwrap();
         assert_eq!(found.poses.len(), rows, "{declared} declared");
-        let said = format!("{rows} of the {declared} declared");
+        let said = format!("{rows} frames, although {declared} are declared");
         assert_eq!(found.report.contains(&said), declared != rows, "{}", found.report);
         let info = survey(&path).unwrap();
         assert_eq!((info.samples, info.unlike), (rows, (declared != rows).then_some(said)));

@@ -166,8 +166,8 @@ fn object<'a>(text: &'a str, class: &str) -> Result<(Words<'a>, HashMap<String, 
     let mut others: Vec<&str> = Vec::new();
     loop {
         let word = words.next(class).map_err(|_| {
-            let held = if others.is_empty() { "other text".to_owned() } else { others.join(", ") };
-            Error::new(format!("holds no {class}, only {held}: is this the right file?"))
+            let held = if others.is_empty() { String::new() } else { format!(", only {}", others.join(", ")) };
+            Error::new(format!("holds no {class}{held}: is this the right file?"))
         })?;
         match word {
             "declare" => {

@@ -114,8 +114,7 @@ impl Settings<'_> {
     /// The table of a motion of matrices, in the space of the scene unless it says otherwise.
     fn moved(&mut self, key: &str, matrices: &Bound<'_, PyAny>, rate: Option<f64>) -> PyResult<Table> {
         let Some(rate) = rate else {
-            let way_out =
-                "needs a frame rate, which the scene has not set yet: give {\"file\": ..., \"frames_per_second\": ...}";
+            let way_out = "needs a frame rate, because the scene is not read yet: give {\"file\": ..., \"frames_per_second\": ...}";
             return Err(error::argument(matrices.py(), key, "an array", way_out));
         };
         let file = text(key, matrices, &self.files.motion(key, matrices, rate)?)?;

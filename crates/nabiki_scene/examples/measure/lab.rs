@@ -22,10 +22,12 @@ const SETTLES_S: f64 = 0.6;
 /// How far a head shakes to either side (cm), and how often (Hz).
 const SHAKE_CM: f64 = 3.0;
 const SHAKES_HZ: [f64; 6] = [1.0, 1.41, 1.6, 2.0, 3.24, 4.0];
-/// Steps a second for a head that moves.
+/// Frames a second for a head that moves.
 const RATE: f64 = 120.0;
 /// Frames a second of a film.
 const FILM_RATE: f64 = 24.0;
+/// So many steps a frame that more change little.
+const FINE: u32 = 32;
 /// How far a head bobs (cm), and how often (Hz).
 const BOB_CM: f64 = 2.0;
 const BOBS_HZ: [f64; 8] = [1.6, 2.0, 2.4, 2.8, 3.0, 3.2, 3.6, 4.0];
@@ -44,27 +46,36 @@ pub fn measure() {
         println!("  gamma {gamma:>3}: {found}; {first:.3}, {second:.3}");
     }
     println!(
-        "a head shaken by {SHAKE_CM} cm, gamma 50, 120 frames a second: the tip's way over the head's; the reference's"
+        "a head shaken by {SHAKE_CM} cm, gamma 50, 120 frames a second: the tip's way over the head's; in {FINE} steps a \
+         frame; the reference's"
     );
     for hz in SHAKES_HZ {
         let way = |time: f64| DVec3::Z * SHAKE_CM * (TAU * hz * time).sin();
-        print_pair(
-            &format!("{hz} Hz"),
-            moved(way, 12.0, DVec3::ZERO).map(|ways| ways.map(|way| swing(&way, hz) / SHAKE_CM)),
-        );
+        let found = |steps| moved(way, 12.0, DVec3::ZERO, steps).map(|ways| ways.map(|way| swing(&way, hz) / SHAKE_CM));
+        print_ways(&format!("{hz} Hz"), [found(None), found(Some(FINE))]);
     }
     println!("a head that bobs by {BOB_CM} cm, gamma 50: how far the tip sways 20 s later (cm); the reference's");
     for hz in BOBS_HZ {
         let way = |time: f64| DVec3::Y * BOB_CM * (TAU * hz * time).sin();
-        print_pair(&format!("{hz} Hz"), moved(way, 20.0, DVec3::Z * 0.2).map(|ways| ways.map(|way| span(&way))));
+        let found = moved(way, 20.0, DVec3::Z * 0.2, None).map(|ways| ways.map(|way| span(&way)));
+        print_ways(&format!("{hz} Hz"), [found]);
     }
 }
 
-fn print_pair(what: &str, found: Result<[f64; 2], SettingError>) {
-    match found {
-        Ok([ours, reference]) => println!("  {what}: {ours:.2}; {reference:.2}"),
-        Err(refused) => println!("  {what}: refused: {} = {}", refused.thing, refused.value),
+/// Ours of each run, and the reference's.
+fn print_ways<const N: usize>(what: &str, found: [Result<[f64; 2], SettingError>; N]) {
+    let mut line = String::new();
+    let mut reference = String::new();
+    for run in found {
+        match run {
+            Ok([ours, truth]) => {
+                line += &format!("{ours:.2}; ");
+                reference = format!("{truth:.2}");
+            }
+            Err(refused) => line += &format!("refused: {refused}; "),
+        }
     }
+    println!("  {what}: {line}{reference}");
 }
 
 fn hanging() -> Strands {
@@ -127,11 +138,18 @@ fn unit() -> f64 {
 }
 
 /// The tip's way in the world (cm, from where it hangs) in the last third of so many seconds, of ours and of the reference, while the
-/// root goes `way` (s); `aside`: how far both are pushed in the first frame, as a share of the weight.
-fn moved(way: impl Fn(f64) -> DVec3, seconds: f64, aside: DVec3) -> Result<[Vec<DVec3>; 2], SettingError> {
+/// root goes `way` (s); `aside`: how far both are pushed in the first frame, as a share of the weight; `steps`: ours in a frame, or as
+/// many as a scene takes.
+fn moved(
+    way: impl Fn(f64) -> DVec3,
+    seconds: f64,
+    aside: DVec3,
+    steps: Option<u32>,
+) -> Result<[Vec<DVec3>; 2], SettingError> {
     let frames = (seconds * RATE) as u32;
-    let dynamics = dynamics(50.0, RATE, SETTLES_S * RATE);
-    let Form::Free(free) = &dynamics.form else { unreachable!() };
+    let mut dynamics = dynamics(50.0, RATE, SETTLES_S * RATE);
+    let Form::Free(free) = &mut dynamics.form else { unreachable!() };
+    free.form.substeps = steps.or(free.form.substeps);
     let push = aside.as_vec3() * free.form.gravity;
     let keys = [Keyframe { through: 1, vector: push }, Keyframe { through: 2, vector: Vec3::ZERO }];
     let field = Arc::new(KeyframedField::new(&keys)?);

@@ -25,9 +25,10 @@ pub fn measure(scene: Scene, strands: usize) -> Result<(), Box<dyn std::error::E
     println!("{} strands, {} frames at {} a second", rest.len(), film.frames(), built.dynamics.motion.frame_rate);
 
     if let Some((from, through)) = first_wind(&scene) {
-        // The reference knows no locks.
+        // The reference knows no locks and no regions.
         let mut alike = scene.clone();
         alike.free.variation = None;
+        alike.free.regions.clear();
         let built = alike.build(Shown::AtMost(strands))?;
         rises(&built, &built.timeline()?.play(), from, through);
     }

@@ -92,7 +92,10 @@ impl BuiltScene {
     /// The additional inputs of the free form. A body is identified by its distance samples, neighbours by their
     /// carriers.
     fn add_free(&self, digest: &mut Digest, free: &FreeMotion) -> Result<()> {
-        digest.settings("free", &free.form)?;
+        // What a region is called changes nothing.
+        let mut form = free.form.clone();
+        form.regions.iter_mut().for_each(|region| region.name.clear());
+        digest.settings("free", &form)?;
         // Accelerations are per second.
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
         for body in &free.bodies {

@@ -58,7 +58,7 @@ impl Refusal {
     fn not_one_table(list: &[Value], wanted: &str) -> Self {
         match list {
             [Value::Table(_), ..] => {
-                Self::kind("a list of tables", format!("{wanted}; in a file, write [...] above it"))
+                Self::kind("a list of tables", format!("{wanted}; in a file, write [...] instead of [[...]]"))
             }
             _ => Self::kind(words(Unexpected::Seq), wanted),
         }

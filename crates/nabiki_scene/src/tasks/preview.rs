@@ -72,8 +72,8 @@ fn whole_is_refused(built: &BuiltScene) -> Result<Option<Advice>> {
     Ok(Some(Advice::new(seen)))
 }
 
-/// A smaller picture with thicker hair: each strand represents several (the share drawn is `share`), but not as thick
-/// as rope.
+/// A smaller picture with thicker hair: each strand represents `share` of the scene's, but is not drawn as thick as
+/// rope.
 fn small(picture: &Picture, share: f32) -> Picture {
     let mut small = picture.clone();
     let factor = (LONGER_SIDE as f32 / picture.size[0].max(picture.size[1]) as f32).min(1.0);

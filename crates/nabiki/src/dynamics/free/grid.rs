@@ -59,8 +59,8 @@ impl Crowd {
         let count = nodes.as_dvec3().element_product();
         if count > MOST_NODES as f64 {
             let remedy = format!(
-                "hair {:.0} cm across needs {count:.0} cells of this size, but at most {MOST_NODES} are allowed: make \
-                 them larger",
+                "hair that can reach over {:.0} cm needs {count:.0} cells of this size, but at most {MOST_NODES} are \
+                 allowed: make them larger",
                 (high - low).max_element()
             );
             return Err(SettingError::new("neighbours.cell", forces.cell, remedy));

@@ -95,7 +95,7 @@ impl FreeRow {
 }
 
 impl AirRow {
-    /// Lanes without a segment get the value of the others, if these are all alike.
+    /// Lanes without a segment get the form's value at the root.
     pub fn of(form: &FreeForm, slow: f64) -> Self {
         Self { air: Row([(form.air(0.0) / slow) as f32; LANES]), drag: Row([form.drag.at(0.0) as f32; LANES]) }
     }

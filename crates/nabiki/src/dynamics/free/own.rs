@@ -20,7 +20,7 @@ struct WaveRow {
 }
 
 impl OwnRow {
-    /// Lanes without a strand get the value of the others, if these are alike.
+    /// Lanes without a strand get a share of 1 and no flutter.
     pub fn of(strands: impl Iterator<Item = Own>) -> Self {
         let mut of = Self { share: Row([1.0; LANES]), flutter: Row::default(), rhythm: Default::default() };
         for (lane, own) in strands.enumerate() {

@@ -94,7 +94,7 @@ impl Packed {
             shapes: 0,
             rest: Vec::new(),
             weight_at_rest: weight::on_head(&free.rest_pose, f64::from(free.form.gravity)).as_vec3().to_array(),
-            most_drag: free.form.drag.largest(),
+            most_drag: free.form.most_drag(),
             center: 0.5 * (low + high),
             radius: 0.5 * low.distance(high) + 2.0 * longest,
             longest,

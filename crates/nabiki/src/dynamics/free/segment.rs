@@ -45,8 +45,7 @@ pub fn substeps(dynamics: &Dynamics, form: &FreeForm, gravity: f32, [length, seg
     let push = push(dynamics, length);
     let swing = (push * f64::from(gravity) / length).sqrt();
     let stiffest = form.stiffness.values().iter().fold(0.0_f32, |most, k| most.max(*k));
-    let stiffest =
-        f64::from(stiffest) * form.regions.iter().map(|region| f64::from(region.stiffness.max(1.0))).product::<f64>();
+    let stiffest = f64::from(stiffest) * form.most_stiffened();
     let ripple = joints::bending(dynamics, push, length, stiffest).sqrt() / segment.powi(2);
     (swing / SWING).max(ripple / RIPPLE).ceil().clamp(2.0, 32.0) as u32
 }

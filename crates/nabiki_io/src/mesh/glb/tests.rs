@@ -337,6 +337,6 @@ fn strips_and_fans_are_triangles_and_loose_edges_beside_them_are_left_out() {
         assert_eq!((beside.positions.len(), beside.triangles.len()), (5, 3), "{mode}");
         assert_eq!(said, [format!("the {what} of head")]);
         let refused = read(&[mode]).unwrap_err().to_string();
-        assert!(refused.contains(&format!("holds {what} instead of the triangles")), "{refused}");
+        assert!(refused.contains(&format!("holds {what} and no triangles")), "{refused}");
     }
 }

@@ -369,7 +369,7 @@ class Region(Table):
 
     @property
     def name(self) -> str:
-        """Name of the region, for `info` and messages. Text; default: none."""
+        """Name of the region, for `info`. Text; default: none."""
         value: str = self._get('name')
         return value
 
