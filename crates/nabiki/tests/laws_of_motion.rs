@@ -273,7 +273,7 @@ fn strands_that_cannot_be_moved_are_refused_by_number() {
         assert_eq!(error.thing, "hair strand 3");
         assert!(error.to_string().contains(what), "{error}");
     };
-    refuse(&[Vec3::ZERO], "1 points");
+    refuse(&[Vec3::ZERO], "but has 1");
     refuse(&[Vec3::ZERO, Vec3::X, Vec3::X], "segment 2 of length 0");
     refuse(&[Vec3::ZERO, Vec3::NAN], "finite");
     refuse(&[Vec3::ZERO, Vec3::INFINITY], "finite");

@@ -47,7 +47,9 @@ pub(super) const GROUPS: &[Group] = &[
         "Hair that moves differently from the rest, such as a fringe that stays.",
         &["name", "near", "to", "within", "soft", "stiffness", "hold", "settle", "wind", "drag"],
     )
-    .shaped(Shape::List("near = [8.5, 4.0, 0.0]\nwithin = 4.0\nhold = 3.0\nwind = 0.3"))
+    .shaped(Shape::List(
+        "near = [5.5, 8.6, -5.0]\nto = [5.5, 8.6, 5.0]\nwithin = 3.0\nsoft = 1.5\nhold = 4.0\nwind = 0.1",
+    ))
     .when(When::Free),
     Group::new(
         "Tie",
