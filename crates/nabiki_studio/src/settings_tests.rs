@@ -12,7 +12,7 @@ fn scenes() -> Vec<Scene> {
     let motion = "{ file = \"m.bvh\", skeleton = \"s.asf\", unit_cm = 1.0, up = \"+y\", facing = \"+z\", frames_per_second = 30.0 }";
     let lie = "unit = \"m\"\nup = \"+y\"\nfacing = \"+x\"\norigin = [0, 0, 0]\n";
     let most = format!(
-        "{wind}{speed}[head]\nmotion = {motion}\n[gust]\n[body_wind]\n[flow]\n[turbulence]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n[neighbours]\n[disturbance]\n\
+        "{wind}{speed}[head]\nmotion = {motion}\n[gust]\n[body_wind]\n[flow]\n[turbulence]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n[neighbours]\n\
          [[fan]]\nposition = [0, 0, 0]\ndirection = [1, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
          [[vortex]]\nposition = [0, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
          [[point]]\nposition = [0, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
@@ -24,7 +24,7 @@ fn scenes() -> Vec<Scene> {
          [output]\nsheet = [0]\nfirst_frame = 0\n[picture.video]\nframe_rate = 24.0\n"
     );
     let imported = format!(
-        "{wind}[head]\nmesh = \"h.obj\"\n{lie}[hair]\nfile = \"h.hair\"\nstrands = 5\nsegments = 5\n{lie}[picture.hair.colour.melanin]\neumelanin = 1.0\n"
+        "{wind}[head]\nmesh = \"h.obj\"\n{lie}[hair]\nfile = \"h.hair\"\nstrands = 5\nsegments = 5\n{lie}[picture.hair.colour.melanin]\neumelanin = 1.0\n[disturbance]\n"
     );
     vec![read(&most), read(&imported)]
 }
