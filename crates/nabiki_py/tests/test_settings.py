@@ -25,7 +25,6 @@ motion = {MOTION}
 [turbulence]
 envelope = [{{ frame = 1, factor = 1.0 }}]
 [neighbours]
-[disturbance]
 [[fan]]
 position = [0, 0, 0]
 direction = [1, 0, 0]
@@ -40,6 +39,10 @@ envelope = [{{ frame = 1, factor = 1.0 }}]
 substeps = 3
 tie = {{ at = [0, 0, 0], within = 1.0 }}
 variation = {{ size = 2.0 }}
+[[free.regions]]
+name = "fringe"
+near = [8, 4, 0]
+to = [8, 4, 1]
 [motion]
 form = "free"
 [hair.style.ponytail]
@@ -77,7 +80,8 @@ mesh = "h.obj"
 file = "h.hair"
 strands = 5
 segments = 5
-{LIE}"""
+{LIE}[disturbance]
+"""
 
 
 def scenes():

@@ -38,7 +38,6 @@ settings! {
         #[serde(skip_serializing_if = "Option::is_none")]
         pub variation: Option<LockVariation> => of FreeForm, open "locks do not differ";
         /// Parts of the hair that move differently, such as a fringe that stays.
-        #[serde(skip_serializing_if = "Vec::is_empty")]
         pub regions: Vec<Region> => of FreeForm;
         /// A band that ties hair. Strands that pass it at rest are held from the root to the band.
         #[serde(skip_serializing_if = "Option::is_none")]
