@@ -104,10 +104,10 @@ fn both_ends_of_what_a_field_takes_are_in_the_range_of_the_scene() {
             };
             let key = format!("{table}.{}", setting.key);
             for end in ends {
-                // Those of grown hair and of imported hair are in no scene together.
-                let scene = scenes.iter().find_map(|scene| scene.with_setting(&key, Some(end.clone())).ok());
-                let scene = scene.unwrap_or_else(|| panic!("no scene has {key}"));
-                assert_eq!(scene.check(), Ok(()), "{key} = {end}");
+                // No scene has all: hair is grown or imported, and a disturbance is of the paper's form.
+                let changed = scenes.iter().filter_map(|scene| scene.with_setting(&key, Some(end.clone())).ok());
+                let checks: Vec<_> = changed.map(|scene| scene.check()).collect();
+                assert!(checks.contains(&Ok(())), "{key} = {end}: {checks:?}");
                 tried += 1;
             }
         }
