@@ -131,5 +131,5 @@ def test_a_step_that_failed_is_not_gone_on_from(gust):
     for timeline in (sought, played):
         assert numpy.array_equal(bits(timeline[3].points), bits(wanted[3]))
         assert numpy.array_equal(bits(timeline[12].points), bits(wanted[12]))
-    with pytest.raises(RuntimeError, match="begin another"):
+    with pytest.raises(RuntimeError, match="start another"):
         next(motion)

@@ -237,7 +237,7 @@ def test_a_step_whose_field_failed_is_gone_back_from():
     with pytest.raises(ZeroDivisionError):
         hair.step(force=nabiki.Field(wind, strongest=5))
     for ask in (hair.step, hair.state, hair.copy, lambda: next(hair)):
-        with pytest.raises(RuntimeError, match="begin another"):
+        with pytest.raises(RuntimeError, match="start another"):
             ask()
     hair.restore(state)
     assert numpy.array_equal(bits(hair.step().points), bits(wanted))
