@@ -52,7 +52,7 @@ def test_a_picture_of_light_is_the_commands(gust, tmp_path, blurred):
 @pytest.mark.parametrize("ending", ["png", "exr"])
 def test_a_picture_that_has_no_place_is_not_drawn(gust, tmp_path, ending):
     drawn, render = [], getattr(gust, f"render_{ending}")
-    for file, words in [(tmp_path / "none" / f"a.{ending}", "no folder"), (tmp_path / "a.tif", f"must end in .{ending}")]:
+    for file, words in [(tmp_path / "none" / f"a.{ending}", "its folder does not exist"), (tmp_path / "a.tif", f"must end in .{ending}")]:
         with pytest.raises(nabiki.Error, match=words):
             render(9, strands=20, file=file, progress=lambda *done: drawn.append(done))
     assert not drawn and not list(tmp_path.iterdir())
