@@ -4,6 +4,7 @@ use crate::error::SettingError;
 use crate::random::mix;
 use crate::setting::{Place, refused};
 use crate::settings;
+use crate::smoothing::rise;
 
 settings! {
     /// Turns each strand a little, at random and at regular intervals, in the paper's form.
@@ -66,8 +67,7 @@ impl Disturbance {
 
     /// The part of a turn done after this many of its frames: 3 t^2 - 2 t^3, which begins and ends at rest.
     fn arrived(&self, frames: u32) -> f64 {
-        let t = f64::from(frames) / f64::from(self.over);
-        t * t * (3.0 - 2.0 * t)
+        rise(f64::from(frames) / f64::from(self.over))
     }
 
     /// The turns (theta, phi) of the tip of strand `id` in this part of a disturbance (rad). All parts together stay

@@ -2,12 +2,13 @@
 //!
 //! How much a strand belongs to a region depends only on its root, so a preview has the regions of all the hair.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::error::SettingError;
 use crate::locks::Own;
 use crate::setting::{Place, refused};
 use crate::settings;
+use crate::smoothing::rise;
 
 /// The farthest that a region reaches (cm).
 const FARTHEST: f64 = 1000.0;
@@ -49,15 +50,12 @@ impl Region {
     /// 1 - 3 x^2 + 2 x^3 at a share x of the border's width.
     pub fn weight(&self, root: Vec3) -> f64 {
         let (root, near) = (root.as_dvec3(), self.near.as_dvec3());
-        let line = self.to.map_or(glam::DVec3::ZERO, |to| to.as_dvec3() - near);
+        let line = self.to.map_or(DVec3::ZERO, |to| to.as_dvec3() - near);
         let along = ((root - near).dot(line) / line.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let beyond = root.distance(near + along * line) - f64::from(self.within);
         match f64::from(self.soft) {
             _ if beyond <= 0.0 => 1.0,
-            soft if beyond < soft => {
-                let x = beyond / soft;
-                (x * x).mul_add(2.0 * x - 3.0, 1.0)
-            }
+            soft if beyond < soft => 1.0 - rise(beyond / soft),
             _ => 0.0,
         }
     }

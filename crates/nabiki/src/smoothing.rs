@@ -1,4 +1,4 @@
-//! Smoothing of values over frames with a bell.
+//! Smoothing: of values over frames with a bell, and of a rise from 0 to 1.
 
 /// Largest standard deviation of the bell (frames).
 pub const MOST: f32 = 240.0;
@@ -6,6 +6,11 @@ pub const MOST: f32 = 240.0;
 /// From this deviation on (steps), a bell is smooth enough to widen by steps twice as long: it has weakened what these
 /// would leave at a step's own wavelength by exp(-8 pi^2).
 const SMOOTH: f64 = 4.0;
+
+/// A smooth rise from 0 to 1 for t in 0..1, level at both ends: 3 t^2 - 2 t^3.
+pub(crate) fn rise(t: f64) -> f64 {
+    t * t * (3.0 - 2.0 * t)
+}
 
 /// Smooths `values`, one per frame, with a bell of this standard deviation (frames). Beyond both ends, values are
 /// mirrored. A deviation of 0 returns them unchanged. `mean(before, now, after, b)` is (1 - 2 b) now + b before + b

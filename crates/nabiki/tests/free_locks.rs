@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{exact, fast, field, free, hair, wind};
+use common::{exact, field, free, hair, twins_apart, wind};
 use glam::{DVec3, Vec3};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Stepper};
 use nabiki::field::KeyframedField;
@@ -119,18 +119,6 @@ fn tied_hair_is_parted_into_locks_where_it_leaves_its_band() {
 fn the_twins_agree_on_locks() {
     let (strands, wind) = (hair(96, 18), wind());
     let dynamics = free(form(Some(LockVariation::default())));
-    let (mut reference, mut simulation) = (exact(&strands, &dynamics, &wind), fast(&strands, &dynamics, &wind));
-    for frame in 1..=FRAMES {
-        let input = FrameInput::new(frame, &[Pose::STILL], &wind);
-        reference.step_frame(&input);
-        simulation.step_frame(&input);
-    }
-    let mut apart: Vec<f64> = reference
-        .positions()
-        .iter()
-        .zip(simulation.strands().points())
-        .map(|(a, b)| a.distance(b.as_dvec3()))
-        .collect();
-    apart.sort_by(f64::total_cmp);
+    let apart = twins_apart(&strands, &dynamics, &wind, FRAMES);
     assert!(apart[apart.len() - 2] < 1e-3 && apart[apart.len() - 1] < 1e-2, "{:e}", apart[apart.len() - 1]);
 }

@@ -2,13 +2,12 @@
 
 mod common;
 
-use common::{bits, exact, fast, field, free, free_motion, hair, run, run_under, way_of_a_head, wind};
+use common::{bits, exact, fast, field, free, free_motion, hair, run, run_under, twins_apart, way_of_a_head, wind};
 use glam::Vec3;
+use nabiki::Profile;
 use nabiki::body::{Body, Contact};
-use nabiki::dynamics::{FrameInput, Stepper};
 use nabiki::free_form::{FreeForm, FreeMotion};
 use nabiki::region::Region;
-use nabiki::{Pose, Profile, Strands};
 use nabiki_groom::bust;
 
 const FRAMES: u32 = 40;
@@ -105,19 +104,7 @@ fn the_twins_agree_on_regions() {
     let (strands, wind) = (hair(96, 18), wind());
     let along = Region { to: Some(Vec3::new(0.0, 11.0, -9.0)), within: 3.0, soft: 5.0, wind: 1.5, ..left() };
     let dynamics = free(with(vec![Region { hold: 3.0, stiffness: 1.7, drag: 0.3, ..left() }, along]));
-    let (mut reference, mut simulation) = (exact(&strands, &dynamics, &wind), fast(&strands, &dynamics, &wind));
-    for frame in 1..=100 {
-        let input = FrameInput::new(frame, &[Pose::STILL], &wind);
-        reference.step_frame(&input);
-        simulation.step_frame(&input);
-    }
-    let mut apart: Vec<f64> = reference
-        .positions()
-        .iter()
-        .zip(Strands::points(simulation.strands()))
-        .map(|(a, b)| a.distance(b.as_dvec3()))
-        .collect();
-    apart.sort_by(f64::total_cmp);
+    let apart = twins_apart(&strands, &dynamics, &wind, 100);
     let most = apart.len() - 1;
     assert!(apart[most - apart.len() / 1000] < 1e-3 && apart[most] < 1e-2, "{:e}", apart[most]);
 }

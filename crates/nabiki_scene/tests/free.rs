@@ -288,6 +288,7 @@ fn settings_without_effect_are_said() {
         ("hair.style.variation.cut", "0.5", three, "hair.style.variation.cut"),
         ("hair.style.ponytail", TAIL, ("hair.style.length", "{ top = 2, sides = 2, back = 2 }"), "hair.style.ponytail"),
         ("hair.style.cuts", "[{ point = [0, -21, 0], normal = [0, 1, 0] }]", three, "hair.style.cuts[0]"),
+        ("free.regions", "[{ near = [0, 60, 0] }]", ("motion.form", "\"free\""), "free.regions[0]"),
         ("picture.camera.margin", "0.2", ("picture.camera.distance", "80"), "picture.camera.margin"),
         ("picture.camera.distance", "3", three, "picture.camera"),
         ("picture.samples", "8", three, "picture.samples"),

@@ -35,6 +35,22 @@ fn a_scene_of_the_free_form_tells_what_moves_its_hair() {
 }
 
 #[test]
+fn regions_are_told_with_their_place_and_factors() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let text = "[motion]\nform = \"free\"\n[[free.regions]]\nname = \"fringe\"\nnear = [5.5, 8.6, -5]\nto = [5.5, 8.6, 5]\n\
+                hold = 3\nwind = 0.5\n[[free.regions]]\nnear = [1, 2, 3]\nwithin = 1\n";
+    std::fs::write(&scene, text).unwrap();
+    let said = info(&scene).unwrap().to_string();
+    for line in [
+        "free.regions[0]: fringe, roots within 4 to 6 cm of the line from (5.5, 8.6, -5) to (5.5, 8.6, 5): hold x 3, wind x 0.5",
+        "free.regions[1]: roots within 1 to 3 cm of (1, 2, 3): no change",
+    ] {
+        assert!(said.lines().any(|said| said == line), "{line}: {said}");
+    }
+}
+
+#[test]
 fn what_moves_the_head_is_told() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/head_turn.toml");
     let said = info(&scene).unwrap();

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::Field;
 use crate::error::SettingError;
+use crate::smoothing::rise;
 use crate::{settings, words};
 
 settings! {
@@ -89,7 +90,7 @@ impl KeyframedField {
                 self.keyframes[j.min(self.keyframes.len() - 1)].vector
             }
             Ease::Linear => self.between(frame, |t| t),
-            Ease::Smooth => self.between(frame, |t| t * t * (3.0 - 2.0 * t)),
+            Ease::Smooth => self.between(frame, rise),
         }
     }
 
@@ -106,7 +107,7 @@ impl KeyframedField {
         match self.ease {
             Ease::Stepped => self.vector(frame),
             Ease::Linear => self.between_at(time, frame, |t| t),
-            Ease::Smooth => self.between_at(time, frame, |t| t * t * (3.0 - 2.0 * t)),
+            Ease::Smooth => self.between_at(time, frame, rise),
         }
     }
 

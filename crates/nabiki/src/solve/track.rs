@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::field::Ease;
+use crate::smoothing::rise;
 
 /// A wind uniform in space whose intervals may meet anywhere in time.
 ///
@@ -82,7 +83,7 @@ impl Track {
                 let (begin, end) = (self.middle(next - 1), self.middle(next));
                 let (length, t) = (end - begin, (time - begin) / (end - begin));
                 let (share, slope) = match self.ease {
-                    Ease::Smooth => (t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t)),
+                    Ease::Smooth => (rise(t), 6.0 * t * (1.0 - t)),
                     _ => (t, 1.0),
                 };
                 Between::Two { from: next - 1, t, share, slope, length }

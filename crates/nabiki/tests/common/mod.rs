@@ -168,6 +168,20 @@ pub fn way_of_a_head(frames: u32) -> Vec<Pose> {
         .collect()
 }
 
+/// How far the two twins are apart after so many frames under a head that stands still: every node (cm), ascending.
+pub fn twins_apart(hair: &Strands, dynamics: &Dynamics, field: &dyn Field, frames: u32) -> Vec<f64> {
+    let (mut reference, mut simulation) = (exact(hair, dynamics, field), fast(hair, dynamics, field));
+    for frame in 1..=frames {
+        let input = FrameInput::new(frame, &[Pose::STILL], field);
+        reference.step_frame(&input);
+        simulation.step_frame(&input);
+    }
+    let pairs = reference.positions().iter().zip(simulation.strands().points());
+    let mut apart: Vec<f64> = pairs.map(|(a, b)| a.distance(b.as_dvec3())).collect();
+    apart.sort_by(f64::total_cmp);
+    apart
+}
+
 pub fn bits(strands: &Strands) -> Vec<[u32; 3]> {
     strands.points().iter().map(|p| p.to_array().map(f32::to_bits)).collect()
 }
