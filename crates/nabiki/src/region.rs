@@ -19,7 +19,7 @@ settings! {
     /// Hair that moves differently from the rest, such as a fringe that stays in the wind.
     ///
     /// A strand belongs to the region if its root is near a point, or near the line from that point to a second one. Each
-    /// factor multiplies a setting of [free]. Where regions overlap, their factors multiply.
+    /// factor multiplies a setting of `[free]`. Where regions overlap, their factors multiply.
     pub struct Region where has_a_line {
         /// Name of the region, for `info`.
         pub name: String = String::new() => "Name";
