@@ -21,8 +21,10 @@ TARGET = HERE / "python" / "nabiki" / "settings"
 PAGE = schemas.ROOT / "docs" / "settings.md"
 BLENDER = schemas.ROOT / "integrations" / "blender" / "nabiki" / "declared.py"
 # Settings that Blender's panels have.
-SHOWN = """gust.intensity gust.time_scale gust.seed flow.thickness body_wind.drag wind.ease free.stiffness free.hold free.settle free.gravity free.drag
-free.substeps motion.slow motion.inertia_length_floor contact.margin contact.friction contact.static_friction neighbours.pressure neighbours.cohesion""".split()
+SHOWN = """gust.intensity gust.time_scale gust.seed flow.thickness body_wind.drag wind.ease free.stiffness free.hold free.settle free.gravity
+free.drag free.substeps free.regions.stiffness free.regions.hold free.regions.settle free.regions.wind free.regions.drag
+motion.slow motion.inertia_length_floor contact.margin contact.friction contact.static_friction neighbours.pressure
+neighbours.cohesion""".split()
 
 # Tables of several kinds, by the classes that have the keys of all.
 CLASSES = {"head": "HeadSettings", "hair": "HairSettings"}
@@ -217,8 +219,11 @@ def blender(schema):
         "SETTINGS = {",
     ]
     for key in SHOWN:
-        table, name = key.split(".")
-        setting = tables[table][name]
+        table, *below, name = key.split(".")
+        settings = tables[table]
+        for list_ in below:
+            settings = schema.settings(settings[list_].table)
+        setting = settings[name]
         kinds = list(flat(setting.schema))
         number = next((kind for kind in kinds if kind.get("type") in ("number", "integer")), {})
         unit = setting.schema.get("x-unit")

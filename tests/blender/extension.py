@@ -10,6 +10,7 @@ import bpy
 import mistakes
 import motions
 import others
+import regions
 import windows
 import winds
 from command import Command
@@ -41,7 +42,7 @@ def main():
     archive, nabiki, work, shared = (Path(word) for word in sys.argv[1:5])
     install(archive)
     failed, skipped, passed = [], [], 0
-    for law in laws(motions, winds, others, windows, mistakes):
+    for law in laws(motions, winds, regions, others, windows, mistakes):
         if sys.argv[5:] and law.__name__ not in sys.argv[5:]:
             continue
         try:

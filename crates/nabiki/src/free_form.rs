@@ -10,7 +10,7 @@ use crate::error::SettingError;
 use crate::locks::{Lock, LockVariation, Locks, Own};
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
-use crate::region::Region;
+use crate::region::{Members, Region};
 use crate::settings;
 use crate::strands::Strands;
 
@@ -173,6 +173,9 @@ pub struct FreeMotion {
     pub neighbours: Option<Neighbours>,
     /// The locks, for [`FreeForm::variation`]. The `size` in those settings is used only by scenes.
     pub locks: Locks,
+    /// Which strands belong to each region of [`FreeForm::regions`] that goes by groups or an attribute. `None`, or
+    /// nothing, for other regions.
+    pub members: Vec<Option<Members>>,
     /// The head's pose in frame 0. It determines how gravity acts on the hair at rest.
     pub rest_pose: Pose,
 }
@@ -188,13 +191,31 @@ impl FreeMotion {
         let mut own = self.form.variation.map_or_else(Own::default, |variation| {
             variation.of(&self.lock(strand), Chance::at_point(self.locks.seed, strand[0]))
         });
-        self.form.regions.iter().for_each(|region| region.change(&mut own, strand[0]));
+        for (i, region) in self.form.regions.iter().enumerate() {
+            region.change(&mut own, self.weight_in(i, strand[0]));
+        }
         own
+    }
+
+    /// The members of a region, if it has any.
+    fn members_of(&self, region: usize) -> Option<&Members> {
+        self.members.get(region)?.as_ref()
+    }
+
+    /// How much the strand with this root (head space at rest, cm) belongs to a region.
+    pub fn weight_in(&self, region: usize, root: Vec3) -> f64 {
+        self.form.regions[region].weight(root) * self.members_of(region).map_or(1.0, |members| members.weight(root))
     }
 
     /// Refuses settings out of range, and bodies without a pose in any of the `frames` frames after frame 0.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
+        for (i, region) in self.form.regions.iter().enumerate() {
+            if region.has_members() && self.members_of(i).is_none() {
+                let key = format!("free.regions[{i}]");
+                return Err(SettingError::new(key, "", "goes by groups or an attribute, so it needs members"));
+            }
+        }
         if !(self.locks.size > 0.0 && self.locks.size.is_finite()) {
             return Err(SettingError::new("free.variation.size", self.locks.size, "must be above 0"));
         }

@@ -7,19 +7,19 @@ use glam::Vec3;
 use nabiki::Profile;
 use nabiki::body::{Body, Contact};
 use nabiki::free_form::{FreeForm, FreeMotion};
-use nabiki::region::Region;
+use nabiki::region::{Members, Region};
 use nabiki_groom::bust;
 
 const FRAMES: u32 = 40;
 
 /// All of a head.
 fn everywhere() -> Region {
-    Region { near: Vec3::ZERO, within: 100.0, soft: 0.0, ..Region::default() }
+    Region { near: Some(Vec3::ZERO), within: 100.0, soft: 0.0, ..Region::default() }
 }
 
 /// The half of a head with z > 0, but for a border.
 fn left() -> Region {
-    Region { near: Vec3::new(0.0, 0.0, 100.0), within: 98.0, soft: 4.0, ..Region::default() }
+    Region { near: Some(Vec3::new(0.0, 0.0, 100.0)), within: 98.0, soft: 4.0, ..Region::default() }
 }
 
 fn with(regions: Vec<Region>) -> FreeForm {
@@ -96,6 +96,29 @@ fn a_subset_moves_as_it_does_within_the_whole() {
     let few: Vec<usize> = (0..60).step_by(7).collect();
     let alone = run(&mut fast(&strands.select(&few), &dynamics, &wind()), &wind(), FRAMES);
     assert_eq!(bits(&alone), bits(&all.select(&few)));
+}
+
+/// Members with the weights of a place move as the place does; hair that is no member does not notice it.
+#[test]
+fn members_move_as_a_place_of_their_weights() {
+    let strands = hair(60, 12);
+    let place = Region { hold: 4.0, wind: 0.5, soft: 0.0, ..left() };
+    let roots = || strands.iter().map(|strand| strand[0]);
+    let inside = roots().filter(|&root| place.weight(root) == 1.0).count();
+    assert!(inside > 10 && inside < 50, "{inside}");
+    let of_a_group = Region { near: None, groups: vec!["left".to_owned()], ..place.clone() };
+    let members = Members::new(roots().map(|root| (root, place.weight(root) as f32)));
+    let free = |region: &Region, members: Vec<Option<Members>>| {
+        free_motion(FreeMotion { form: with(vec![region.clone()]), members, ..FreeMotion::default() })
+    };
+    let [by_place, by_group] = [free(&place, Vec::new()), free(&of_a_group, vec![Some(members)])];
+    let motion = |dynamics| {
+        let exact = run(&mut exact(&strands, dynamics, &wind()), &wind(), FRAMES);
+        (bits(&exact), bits(&run(&mut fast(&strands, dynamics, &wind()), &wind(), FRAMES)))
+    };
+    assert_eq!(motion(&by_place), motion(&by_group));
+    let refused = free(&of_a_group, Vec::new()).check().unwrap_err().to_string();
+    assert!(refused.starts_with("free.regions[0] "), "{refused}");
 }
 
 /// As without: see `the_twins_agree`.

@@ -41,6 +41,8 @@ tie = {{ at = [0, 0, 0], within = 1.0 }}
 variation = {{ size = 2.0 }}
 [[free.regions]]
 name = "fringe"
+groups = ["top"]
+attribute = "painted"
 near = [8, 4, 0]
 to = [8, 4, 1]
 [motion]

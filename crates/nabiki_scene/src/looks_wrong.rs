@@ -6,8 +6,8 @@ mod unused;
 
 use glam::Vec3;
 use nabiki::dynamics::Form;
+use nabiki::free_form::FreeMotion;
 use nabiki::head::Opening;
-use nabiki::region::Region;
 use nabiki::{Head, Pose};
 use nabiki_groom::style::Cut;
 use nabiki_io::info::Short;
@@ -159,19 +159,26 @@ fn cropped(built: &BuiltScene) -> impl Iterator<Item = Advice> {
 
 /// Regions without hair.
 fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
-    let regions = match &built.dynamics.form {
-        Form::Free(free) => free.form.regions.as_slice(),
-        Form::Paper => &[],
+    let free = match &built.dynamics.form {
+        Form::Free(free) => Some(free),
+        Form::Paper => None,
     };
     let strands = built.strands();
-    let empty = move |region: &Region| strands.iter().all(|strand| region.weight(strand[0]) == 0.0);
-    regions.iter().enumerate().filter(move |(_, region)| empty(region)).map(|(i, region)| {
-        let seen = format!(
-            "free.regions[{i}] contains none of the {} strands: no root is within {} cm of it; correct near, or raise within",
-            strands.len(),
-            Short(region.within + region.soft)
-        );
-        Advice::new(seen)
+    let regions = free.into_iter().flat_map(|free| (0..free.form.regions.len()).map(move |i| (free, i)));
+    let empty = |&(free, i): &(&FreeMotion, usize)| strands.iter().all(|strand| free.weight_in(i, strand[0]) == 0.0);
+    regions.filter(empty).map(|(free, i)| {
+        let region = &free.form.regions[i];
+        let why = match region.near {
+            Some(_) if region.has_members() => {
+                "none is near it and also in its groups and attribute; leave out one of these".to_owned()
+            }
+            Some(_) => {
+                let far = Short(region.within + region.soft);
+                format!("no root is within {far} cm of it; correct near, or raise within")
+            }
+            None => "none is in its groups, or its attribute is 0 on all of them; correct these".to_owned(),
+        };
+        Advice::new(format!("free.regions[{i}] contains none of the {} strands: {why}", strands.len()))
     })
 }
 

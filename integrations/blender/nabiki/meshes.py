@@ -2,6 +2,7 @@
 """Meshes of Blender as arrays, and how rigid things go through the frames."""
 
 import numpy as np
+from mathutils.bvhtree import BVHTree
 
 from .messages import Mistake
 
@@ -31,24 +32,52 @@ def vertices(evaluated):
     return found.reshape(-1, 3).astype(np.float64)
 
 
+def corners(evaluated):
+    """The triangles of an evaluated mesh, by the numbers of its vertices."""
+    mesh = evaluated.data
+    mesh.calc_loop_triangles()
+    found = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", found)
+    return found.reshape(-1, 3)
+
+
 def triangles(evaluated, what, group=""):
     """The vertices (in the object's space) and triangles of an evaluated mesh; of a vertex group alone, if one is named."""
     mesh = evaluated.data
-    mesh.calc_loop_triangles()
-    faces = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", faces)
-    points, faces = vertices(evaluated), faces.reshape(-1, 3)
+    points, faces = vertices(evaluated), corners(evaluated)
     if group:
-        groups = evaluated.vertex_groups
-        if group not in groups:
-            raise Mistake(f'{what} "{evaluated.name}" has no vertex group "{group}": pick one that it has, or none')
-        number = groups[group].index
+        number = group_number(evaluated, what, group)
         within = np.array([any(g.group == number and g.weight > 0.5 for g in v.groups) for v in mesh.vertices], bool)
         faces = faces[within[faces].all(1)]
     if not len(faces):
         raise Mistake(f'{what} "{evaluated.name}" has no faces: pick a mesh with a surface')
     used, faces = np.unique(faces, return_inverse=True)
     return points[used], faces.reshape(-1, 3)
+
+
+def group_weights(evaluated, what, group):
+    """The weight of each vertex of an evaluated mesh in a vertex group."""
+    number = group_number(evaluated, what, group)
+    return np.array([next((g.weight for g in v.groups if g.group == number), 0.0) for v in evaluated.data.vertices], np.float64)
+
+
+def group_number(evaluated, what, group):
+    if group not in evaluated.vertex_groups:
+        raise Mistake(f'{what} "{evaluated.name}" has no vertex group "{group}": pick one that it has, or none')
+    return evaluated.vertex_groups[group].index
+
+
+def at_nearest(points, faces, weights, places):
+    """The weights of vertices at the points of the triangles that are nearest to some places."""
+    skin = BVHTree.FromPolygons(points.tolist(), faces.tolist())
+    hits = [skin.find_nearest(place) for place in places.tolist()]
+    at, corners = np.array([hit[0] for hit in hits]), faces[[hit[2] for hit in hits]]
+    a, b, c = (points[corners[:, i]] for i in range(3))
+    # Each corner has the share of the area that is across from it.
+    across = np.stack([np.cross(c - b, at - b), np.cross(a - c, at - c), np.cross(b - a, at - a)], 1)
+    normal = np.cross(b - a, c - a)
+    shares = np.einsum("nij,nj->ni", across, normal).clip(0)
+    return (weights[corners] * shares).sum(1) / shares.sum(1).clip(np.finfo(np.float64).tiny)
 
 
 def placed(points, faces, to_world, origin):

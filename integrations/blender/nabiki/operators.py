@@ -70,8 +70,8 @@ class NABIKI_OT_clear(Named, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OfWinds:
-    """An operator about the winds of the active hair."""
+class OfLists:
+    """An operator about the winds or regions of the active hair."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -87,7 +87,7 @@ class OfWinds:
         return {"FINISHED"}
 
 
-class NABIKI_OT_interval_add(OfWinds, bpy.types.Operator):
+class NABIKI_OT_interval_add(OfLists, bpy.types.Operator):
     bl_idname = "nabiki.interval_add"
     bl_label = "Add Wind"
     bl_description = "Add a wind that starts where the last one ends. The first one blows against the face"
@@ -101,7 +101,7 @@ class NABIKI_OT_interval_add(OfWinds, bpy.types.Operator):
         settings.active_interval = len(settings.intervals) - 1
 
 
-class NABIKI_OT_interval_remove(OfWinds, bpy.types.Operator):
+class NABIKI_OT_interval_remove(OfLists, bpy.types.Operator):
     bl_idname = "nabiki.interval_remove"
     bl_label = "Remove Wind"
     bl_description = "Remove the selected wind"
@@ -113,6 +113,31 @@ class NABIKI_OT_interval_remove(OfWinds, bpy.types.Operator):
     def change(self, scene, settings):
         settings.intervals.remove(settings.active_interval)
         settings.active_interval = max(0, min(settings.active_interval, len(settings.intervals) - 1))
+
+
+class NABIKI_OT_region_add(OfLists, bpy.types.Operator):
+    bl_idname = "nabiki.region_add"
+    bl_label = "Add Region"
+    bl_description = "Add hair that moves differently from the rest, such as a fringe that stays"
+
+    def change(self, scene, settings):
+        region = settings.regions.add()
+        region.name = f"Region {len(settings.regions)}"
+        settings.active_region = len(settings.regions) - 1
+
+
+class NABIKI_OT_region_remove(OfLists, bpy.types.Operator):
+    bl_idname = "nabiki.region_remove"
+    bl_label = "Remove Region"
+    bl_description = "Remove the selected region"
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and len(hair_of(context.object).nabiki.regions) > 0
+
+    def change(self, scene, settings):
+        settings.regions.remove(settings.active_region)
+        settings.active_region = max(0, min(settings.active_region, len(settings.regions) - 1))
 
 
 class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operator):
@@ -152,6 +177,6 @@ def hair_of(thing):
 
 
 CLASSES = [NABIKI_OT_simulate, NABIKI_OT_solve, NABIKI_OT_bake, NABIKI_OT_clear, NABIKI_OT_interval_add, NABIKI_OT_interval_remove]
-CLASSES += [NABIKI_OT_write_scene]
+CLASSES += [NABIKI_OT_region_add, NABIKI_OT_region_remove, NABIKI_OT_write_scene]
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

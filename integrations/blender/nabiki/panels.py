@@ -192,6 +192,36 @@ class NABIKI_PT_settings(Part, bpy.types.Panel):
         column.prop(settings, "frame_end")
 
 
+class NABIKI_UL_regions(bpy.types.UIList):
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flt_flag=0):
+        layout.prop(item, "name", text="", emboss=False, icon="CURVES")
+        layout.label(text=", ".join(word for word in [item.attribute, item.vertex_group] if word))
+
+
+class NABIKI_PT_regions(Part, bpy.types.Panel):
+    bl_label = "Regions"
+
+    def draw(self, context):
+        thing = of(context)
+        settings, layout = thing.nabiki, columns(self.layout)
+        row = layout.row()
+        row.template_list("NABIKI_UL_regions", "", settings, "regions", settings, "active_region", rows=3)
+        column = row.column(align=True)
+        column.operator("nabiki.region_add", text="", icon="ADD")
+        column.operator("nabiki.region_remove", text="", icon="REMOVE")
+        if not 0 <= settings.active_region < len(settings.regions):
+            return
+        region, head = settings.regions[settings.active_region], settings.head or thing.data.surface
+        column = layout.column()
+        # The attributes that modifiers add are not listed, so a name may be typed.
+        column.prop(region, "attribute")
+        if head is not None and head.type == "MESH":
+            column.prop_search(region, "vertex_group", head, "vertex_groups")
+        column = layout.column()
+        for name in ["stiffness", "hold", "settle", "wind", "drag"]:
+            column.prop(region, name)
+
+
 class NABIKI_PT_collisions(Part, bpy.types.Panel):
     bl_label = "Collisions"
 
@@ -247,6 +277,6 @@ class NABIKI_PT_sidebar(bpy.types.Panel):
 
 
 CLASSES = [NABIKI_UL_intervals, NABIKI_PT_main, NABIKI_PT_wind, NABIKI_PT_fields, NABIKI_PT_gusts, NABIKI_PT_flow, NABIKI_PT_body_wind]
-CLASSES += [NABIKI_PT_settings, NABIKI_PT_collisions, NABIKI_PT_cache, NABIKI_PT_notes, NABIKI_PT_sidebar]
+CLASSES += [NABIKI_UL_regions, NABIKI_PT_settings, NABIKI_PT_regions, NABIKI_PT_collisions, NABIKI_PT_cache, NABIKI_PT_notes, NABIKI_PT_sidebar]
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

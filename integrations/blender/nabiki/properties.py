@@ -50,6 +50,25 @@ class NabikiInterval(bpy.types.PropertyGroup):
     solve: BoolProperty(name="Find", description="Whether Find the Wind may change this wind", default=True)
 
 
+class NabikiRegion(bpy.types.PropertyGroup):
+    name: StringProperty(name="Name", description="Name of the region", default="Region", update=changed)
+    attribute: StringProperty(
+        name="Attribute",
+        description="Attribute of the curves with a weight per curve or point: 0 leaves the hair as it is, 1 makes it belong to the region",
+        update=changed,
+    )
+    vertex_group: StringProperty(
+        name="Vertex Group",
+        description="Vertex group of the head: its weight at the root makes hair belong to the region. With an attribute, the weights multiply",
+        update=changed,
+    )
+    stiffness: FloatProperty(**declared("free.regions.stiffness"))
+    hold: FloatProperty(**declared("free.regions.hold"))
+    settle: FloatProperty(**declared("free.regions.settle"))
+    wind: FloatProperty(**declared("free.regions.wind"))
+    drag: FloatProperty(**declared("free.regions.drag"))
+
+
 FACING = [
     ("-y", "-Y", "The face looks along -Y of the world in the first frame, as in Blender's front view"),
     ("+y", "Y", "The face looks along Y of the world in the first frame"),
@@ -127,6 +146,9 @@ class NabikiSettings(bpy.types.PropertyGroup):
     # Of nabiki there are none below 1: 0 leaves the number open.
     substeps: IntProperty(**declared("free.substeps", description=SUBSTEPS, default=0, min=0))
     short_hair_length: FloatProperty(**declared("motion.inertia_length_floor", name="Short Hair (cm)", default=14.0, soft_max=60.0))
+    # Hair that answers otherwise.
+    regions: CollectionProperty(type=NabikiRegion)
+    active_region: IntProperty(name="Region", description="The selected region", default=0)
     # Collisions.
     margin: FloatProperty(**declared("contact.margin"))
     friction: FloatProperty(**declared("contact.friction"))
@@ -157,7 +179,7 @@ class NabikiSettings(bpy.types.PropertyGroup):
     of: PointerProperty(type=bpy.types.Object)
 
 
-CLASSES = [NabikiInterval, NabikiSettings]
+CLASSES = [NabikiInterval, NabikiRegion, NabikiSettings]
 
 
 def register():

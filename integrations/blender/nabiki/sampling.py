@@ -47,6 +47,8 @@ class Sample:
     effectors: list
     digest: int
     notes: list = field(default_factory=list)
+    regions: list = field(default_factory=list)
+    """How much each strand belongs to each region, or None for a region without weights."""
 
 
 def check_enabled(layer, thing):
@@ -110,6 +112,16 @@ def digest(scene, thing):
     curves = np.empty(len(thing.data.curves), np.int32)
     thing.data.curves.foreach_get("points_length", curves)
     parts += [thing.name, curves, attributes.points_of(thing.data)]
+    for region in settings.regions:
+        parts += [region.attribute, region.vertex_group]
+        painted = thing.data.attributes.get(region.attribute) if region.attribute else None
+        rows = attributes.values(painted) if painted is not None else None
+        if rows is not None:
+            parts.append(rows)
+        if region.vertex_group in head.vertex_groups:
+            number = head.vertex_groups[region.vertex_group].index
+            held = [(v.index, g.weight) for v in head.data.vertices for g in v.groups if g.group == number]
+            parts.append(np.array(held, np.float64))
     found = 0
     for part in parts:
         found = zlib.crc32(part.encode() if isinstance(part, str) else np.ascontiguousarray(part), found)
@@ -223,6 +235,7 @@ class Reader:
         if self.hair.left_out:
             self.notes.append(f"{self.hair.left_out} curves of length 0 are left out")
         self._check_roots()
+        self.regions = [self._weights(region, evaluated, to_world) for region in thing.nabiki.regions]
         self.colliders = colliders(scene, thing)
         self.bodies = [self._body(other, graph) for other in self.colliders]
         self.fields, self.effectors = [], []
@@ -249,6 +262,22 @@ class Reader:
             raise Mistake(f'the roots of "{self.thing.name}" are {cm:.3g} cm from the head "{self.head.name}": {way_out}')
         if off > AFLOAT * size:
             self.notes.append(f'the roots are {cm:.2g} cm from the skin of "{self.head.name}"')
+
+    def _weights(self, region, evaluated, to_world):
+        """How much each strand belongs to a region."""
+        hair, weights = self.hair, None
+        if region.attribute:
+            _, rows = hair.by_strand.get(region.attribute) or hair.by_point.get(region.attribute) or (None, None)
+            if rows is None or rows.shape[1] != 1:
+                of = "attribute with one number per curve or point"
+                raise Mistake(f'"{self.thing.name}" has no {of} "{region.attribute}": correct it in Nabiki > Regions > {region.name}')
+            weights = rows[hair.offsets[:-1], 0] if region.attribute not in hair.by_strand else rows[:, 0]
+        if region.vertex_group:
+            of_vertices = meshes.group_weights(evaluated, "the head", region.vertex_group)
+            points, faces = meshes.placed(meshes.vertices(evaluated), meshes.corners(evaluated), to_world, self.origin)
+            of_group = meshes.at_nearest(points, faces, of_vertices, hair.points[hair.offsets[:-1]].astype(np.float64))
+            weights = of_group if weights is None else weights * of_group
+        return weights
 
     def _body(self, other, graph):
         check_enabled(self.layer, other)
@@ -293,7 +322,17 @@ class Reader:
 
     def sample(self, frames):
         return Sample(
-            frames, rate(self.scene), unit(self.scene), self.origin, self.hair, self.head_body, self.bodies, self.effectors, self.digest, self.notes
+            frames,
+            rate(self.scene),
+            unit(self.scene),
+            self.origin,
+            self.hair,
+            self.head_body,
+            self.bodies,
+            self.effectors,
+            self.digest,
+            self.notes,
+            self.regions,
         )
 
 

@@ -29,9 +29,12 @@ def values(settings, start):
     plain = {name: getattr(settings, name) for name in PLAIN}
     plain["stiffness"] = tuple(settings.stiffness)
     plain["intervals"] = [(interval.through - start, tuple(interval.vector), interval.solve) for interval in settings.intervals]
+    plain["regions"] = [(region.name, {factor: getattr(region, factor) for factor in FACTORS}) for region in settings.regions]
     return plain
 
 
+# What a region multiplies.
+FACTORS = ["stiffness", "hold", "settle", "wind", "drag"]
 PLAIN = ["facing", "strength_scale", "ease", "use_gust", "gust_intensity", "gust_time_scale", "gust_seed", "use_flow", "flow_thickness"]
 PLAIN += ["use_body_wind", "body_wind_drag", "hold", "settle", "gravity", "drag", "speed", "slow", "substeps", "short_hair_length"]
 PLAIN += ["margin", "friction", "static_friction", "use_neighbours", "pressure", "cohesion"]
@@ -56,9 +59,13 @@ def write(sample, plain, folder, apart=()):
         _write_track(file, body.ways, sample.unit_cm, sample.rate)
         return {"file": file.as_posix(), "up": "+z", "facing": plain["facing"]}
 
-    head, hair = folder / "head.ply", folder / "hair.hair"
+    weights = {f"region_{number}": of for number, of in enumerate(sample.regions) if of is not None}
+    head, hair = folder / "head.ply", folder / ("hair.usda" if weights else "hair.hair")
     _write_mesh(head, sample.head)
-    _write_hair(hair, sample.hair)
+    if weights:
+        _write_weighted_hair(hair, sample.hair, weights)
+    else:
+        _write_hair(hair, sample.hair)
     corners = sample.head.points @ axes.to_nabiki(plain["facing"]).T * sample.unit_cm
     made.box = corners.min(0), corners.max(0)
     settings = {"head": {"mesh": named(head, f'the head "{sample.head.name}"'), **space}}
@@ -83,6 +90,15 @@ def write(sample, plain, folder, apart=()):
     if plain["substeps"]:
         settings["free"]["substeps"] = plain["substeps"]
     settings["free"]["stiffness"] = plain["stiffness"]
+    regions = []
+    for number, (name, factors) in enumerate(plain["regions"]):
+        if f"region_{number}" in weights:
+            made.names[f"free.regions[{len(regions)}]"] = f'the region "{name}"'
+            regions.append({"name": name, "attribute": f"region_{number}", **factors})
+        else:
+            made.notes.append(f'the region "{name}" is not used: it has neither an attribute nor a vertex group')
+    if regions:
+        settings["free"]["regions"] = regions
     settings["contact"] = {name: plain[name] for name in ["margin", "friction", "static_friction"]}
     if plain["use_neighbours"]:
         settings["neighbours"] = {"pressure": plain["pressure"], "cohesion": plain["cohesion"]}
@@ -173,6 +189,22 @@ def _write_hair(file, hair):
     header = struct.pack("<4sIIIIfffff88s", b"HAIR", len(segments), len(hair.points), 1 | 2 | 4, 0, 0, 0, 0, 0, 0, b"")
     thickness = (2 * hair.radii).astype("<f4")
     file.write_bytes(header + segments.astype("<u2").tobytes() + hair.points.astype("<f4").tobytes() + thickness.tobytes())
+
+
+def _write_weighted_hair(file, hair, weights):
+    """A .usda layer with curves, diameters and a number per strand for each region. `weights`: arrays by their names."""
+
+    def row(values):
+        return "[" + ", ".join(np.char.mod("%.9g", np.asarray(values, np.float32)).tolist()) + "]"
+
+    counts = np.diff(hair.offsets)
+    points = np.char.mod("%.9g", hair.points.astype(np.float32)).tolist()
+    text = ["#usda 1.0", 'def BasisCurves "hair"', "{", '    uniform token type = "linear"']
+    text += [f"    int[] curveVertexCounts = {counts.tolist()}"]
+    text += ["    point3f[] points = [" + ", ".join(f"({x}, {y}, {z})" for x, y, z in points) + "]"]
+    text += [f'    float[] widths = {row(2 * hair.radii)} ( interpolation = "vertex" )']
+    text += [f'    float[] primvars:{name} = {row(of)} ( interpolation = "uniform" )' for name, of in weights.items()]
+    file.write_text("\n".join([*text, "}", ""]), encoding="ascii")
 
 
 def _write_track(file, ways, unit_cm, rate):

@@ -8,6 +8,7 @@ use nabiki::locks::Locks;
 use nabiki::{Pose, Strands};
 
 use super::bodies::{BodyInputs, BuiltBody};
+use super::groom::Groom;
 use super::model::Model;
 use super::stage::{At, Stage};
 use crate::error::Result;
@@ -54,15 +55,15 @@ pub(super) fn mean_lengths(first: &Strands) -> MeanLengths {
     MeanLengths { strand, segment }
 }
 
-/// Sets the free form with these settings and the scene's surroundings in `dynamics`. `first`: strands of the whole, as
-/// many as needed or available. Returns the scene's bodies; `known` ones are reused.
+/// Sets the free form with these settings and the scene's surroundings in `dynamics`. Returns the scene's bodies; `known`
+/// ones are reused.
 #[expect(clippy::too_many_arguments, reason = "all that surrounds the hair")]
 pub(super) fn set_free<'a>(
     dynamics: &mut Dynamics,
     form: FreeForm,
     scene: &Scene,
     model: &Model,
-    first: &Strands,
+    groom: &Groom,
     rest_pose: Pose,
     known: impl Iterator<Item = &'a Arc<BuiltBody>> + Clone,
     at: At<'_>,
@@ -76,10 +77,12 @@ pub(super) fn set_free<'a>(
         bodies.push(body);
     }
     let neighbours = scene.neighbours.as_ref().map(|forces| {
+        let first = &groom.first;
         let carriers = (forces.carriers as usize).min(first.len());
         Neighbours::new(forces.clone(), Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())))
     });
-    dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, locks: locks(scene), rest_pose });
+    let (locks, members) = (locks(scene), groom.members.clone());
+    dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, locks, members, rest_pose });
     dynamics.check().map_err(|refused| at.refusal(refused))?;
     Ok(bodies)
 }

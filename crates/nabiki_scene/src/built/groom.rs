@@ -2,6 +2,7 @@
 
 mod grown;
 mod imported;
+mod members;
 
 use std::fmt::Display;
 use std::ops::Range;
@@ -9,6 +10,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use nabiki::dynamics::{Motion, straightened};
+use nabiki::region::Members;
 use nabiki::{Hair, SettingError, Strands};
 use nabiki_io::cache::Shard;
 use nabiki_io::identity::StrandSum;
@@ -24,6 +26,7 @@ use crate::scene::{GrownHair, HairSource, ImportedHair, Scene};
 pub use imported::Imported;
 
 use grown::{Roots, RootsInputs};
+use members::Selectors;
 
 /// Hair at rest: all of a scene's strands, or some.
 #[derive(Clone, Debug)]
@@ -41,6 +44,8 @@ pub struct Groom {
     pub ids: Vec<u32>,
     /// The first strands of the farthest-first order of the whole, whichever are shown: those that the free form needs.
     pub(super) first: Strands,
+    /// Which strands belong to each region of the scene: of imported hair all, of grown hair those grown.
+    pub(super) members: Vec<Option<Members>>,
 }
 
 /// A shard of the requested strands.
@@ -64,6 +69,7 @@ pub(super) struct GroomInputs {
     /// How many of the first strands are wanted.
     first: usize,
     wanted: Wanted,
+    selectors: Selectors,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -116,7 +122,7 @@ impl GroomInputs {
         };
         let straighten = scene.motion.straighten;
         let straight = (straighten != 0.0).then_some((straighten, polar_axis));
-        Ok(Self { model: model.clone(), source, straight, first, wanted })
+        Ok(Self { model: model.clone(), source, straight, first, wanted, selectors: Selectors::of(scene) })
     }
 }
 

@@ -96,6 +96,12 @@ impl BuiltScene {
         let mut form = free.form.clone();
         form.regions.iter_mut().for_each(|region| region.name.clear());
         digest.settings("free", &form)?;
+        if self.groom.imported.is_some() {
+            // Of grown hair, these follow from its settings, and only some are known.
+            for members in free.members.iter().flatten() {
+                add_numbers(digest, "members", &members.weights().collect::<Vec<_>>());
+            }
+        }
         // Accelerations are per second.
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
         for body in &free.bodies {

@@ -258,18 +258,26 @@ impl fmt::Display for FreeInfo {
     }
 }
 
-/// A region: `fringe, roots within 4 to 6 cm of (8.5, 4, 0): hold x 3, wind x 0.3`.
+/// A region: `bangs, groups fringe, roots within 4 to 6 cm of (8.5, 4, 0): hold x 3, wind x 0.3`.
 fn region_in_words(region: &Region) -> String {
     let point = |p: Vec3| {
         let [x, y, z] = p.to_array().map(Short);
         format!("({x}, {y}, {z})")
     };
     let name = if region.name.is_empty() { String::new() } else { format!("{}, ", region.name) };
-    let place = match region.to {
-        None => point(region.near),
-        Some(to) => format!("the line from {} to {}", point(region.near), point(to)),
-    };
-    let [inner, outer] = [region.within, region.within + region.soft].map(Short);
+    let mut strands = Vec::new();
+    if !region.groups.is_empty() {
+        strands.push(format!("groups {}", region.groups.join(" and ")));
+    }
+    strands.extend(region.attribute.as_ref().map(|attribute| format!("attribute {attribute}")));
+    if let Some(near) = region.near {
+        let [inner, outer] = [region.within, region.within + region.soft].map(Short);
+        let place = match region.to {
+            None => point(near),
+            Some(to) => format!("the line from {} to {}", point(near), point(to)),
+        };
+        strands.push(format!("roots within {inner} to {outer} cm of {place}"));
+    }
     let factors = [
         ("stiffness", region.stiffness),
         ("hold", region.hold),
@@ -281,7 +289,7 @@ fn region_in_words(region: &Region) -> String {
         .map(|(key, factor)| format!("{key} x {}", Short(factor)))
         .collect();
     let told = if told.is_empty() { "no change".to_owned() } else { told.join(", ") };
-    format!("{name}roots within {inner} to {outer} cm of {place}: {told}")
+    format!("{name}{}: {told}", strands.join(", "))
 }
 
 /// A setting of `[free]` as given, and its value if it is in a physical unit: `stiffness 9 cm to 4.5 cm (K = 250,000 to

@@ -361,8 +361,9 @@ class LockVariation(Table):
 class Region(Table):
     """Hair that moves differently from the rest, such as a fringe that stays in the wind.
 
-    A strand belongs to the region if its root is near a point, or near the line from that point to a second one. Each
-    factor multiplies a setting of `[free]`. Where regions overlap, their factors multiply.
+    A strand belongs to the region by its group, by an attribute of the hair, or if its root is near a point or line;
+    with several of these, by all of them. Each factor multiplies a setting of `[free]`. Where regions overlap, their
+    factors multiply.
     """
 
     __slots__ = ()
@@ -378,9 +379,35 @@ class Region(Table):
         self._set('name', value)
 
     @property
-    def near(self) -> tuple[float, float, float]:
-        """Where the region is, in the space of the head at rest. 3 numbers, each -1000 to 1000 (cm); must be given."""
-        value: tuple[float, float, float] = self._get('near')
+    def groups(self) -> tuple[str, ...]:
+        """Groups of hair: only strands of these groups belong to it. Grown hair has the groups "top", "sides", "back"
+        and "fringe"; hair from a file has those of the file. List of texts; default: none.
+        """
+        value: tuple[str, ...] = self._get('groups')
+        return value
+
+    @groups.setter
+    def groups(self, value: Sequence[str] | None) -> None:
+        self._set('groups', value)
+
+    @property
+    def attribute(self) -> str | None:
+        """Attribute of the hair in its file, such as a painted weight: one number per strand or point, of which that of
+        the root counts. It is how much the strand belongs to the region: 0 not at all, 1 fully. Text; default: none.
+        """
+        value: str | None = self._get('attribute')
+        return value
+
+    @attribute.setter
+    def attribute(self, value: str | None) -> None:
+        self._set('attribute', value)
+
+    @property
+    def near(self) -> tuple[float, float, float] | None:
+        """Where the region is, in the space of the head at rest. 3 numbers, each -1000 to 1000 (cm); default:
+        everywhere.
+        """
+        value: tuple[float, float, float] | None = self._get('near')
         return value
 
     @near.setter

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use nabiki::{Hair, Head};
 use nabiki_groom::roots::{self, Root};
+use nabiki_groom::style::Region;
 use nabiki_groom::{Growth, Hairline, grow_run_while};
 use nabiki_io::identity::StrandSum;
 
@@ -94,16 +95,18 @@ pub(super) fn grow(
     let (hair, first) = if run.start < first {
         // The first strands are grown in any case.
         let hair = grown(roots, 0, at.goes_on)?;
-        let first = hair.strands.select(&(0..first).collect::<Vec<_>>());
+        let first = hair.select(&(0..first).collect::<Vec<_>>());
         let more = hair.strands.len() > run.len();
         (if more { hair.select(&run.clone().collect::<Vec<_>>()) } else { hair }, first)
     } else {
-        let first = grown(&roots[..first], 0, &|_| (at.goes_on)(0.0))?.strands;
+        let first = grown(&roots[..first], 0, &|_| (at.goes_on)(0.0))?;
         (grown(&roots[run.clone()], run.start, at.goes_on)?, first)
     };
     let ids = run.map(|number| number as u32).collect();
     let shard = inputs.wanted.shard.map(|shard| ShardOf { shard, strands: count, groom: StrandSum::default() });
-    Ok(Groom { inputs: inputs.clone(), hair, of_scene: *strands, shard, imported: None, ids, first })
+    let members = inputs.selectors.members(&[&hair, &first], &Region::ALL.map(Region::word));
+    let (members, first) = (members.map_err(|refused| at.refusal(refused))?, first.strands);
+    Ok(Groom { inputs: inputs.clone(), hair, of_scene: *strands, shard, imported: None, ids, first, members })
 }
 
 /// Refuses hair whose points take more memory than there is.

@@ -75,6 +75,7 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
         Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count, at)?),
         _ => hair,
     };
+    let members = inputs.selectors.members(&[&hair], &[]).map_err(|refused| at.refusal(refused))?;
     let of_scene = hair.strands.len();
     let first = (*first).min(of_scene);
     let first = if first == 0 { Hair::default() } else { hair.select(&farthest_first(&hair, first, at)?) };
@@ -93,7 +94,7 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
     let (hair, first) = (cut(hair, settings.segments, at)?, cut(first, settings.segments, at)?.strands);
     let (frames, begins, curves) = (groom.frames()?, groom.start()?, groom.curves(&settings.file)?);
     let imported = Some(Imported { placement, curves, report, frames, begins, declared, of_head, judged });
-    Ok(Groom { inputs: inputs.clone(), hair, of_scene, shard, imported, ids, first })
+    Ok(Groom { inputs: inputs.clone(), hair, of_scene, shard, imported, ids, first, members })
 }
 
 /// Indices of the first strands in the farthest-first order of the roots.

@@ -1,0 +1,153 @@
+//! Regions by groups and attributes of the hair: which strands belong to them, and what is refused.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use nabiki::dynamics::Form;
+use nabiki::free_form::FreeMotion;
+use nabiki_groom::style::Region;
+use nabiki_scene::{BuiltScene, Scene, Shown};
+
+fn free(built: &BuiltScene) -> &FreeMotion {
+    match &built.dynamics.form {
+        Form::Free(free) => free,
+        Form::Paper => panic!("the scene is in the free form"),
+    }
+}
+
+/// How much each shown strand belongs to region 0.
+fn weights(built: &BuiltScene) -> Vec<f64> {
+    built.strands().iter().map(|strand| free(built).weight_in(0, strand[0])).collect()
+}
+
+#[test]
+fn grown_hair_belongs_to_regions_by_its_groups() {
+    let text = "[motion]\nform = \"free\"\n[hair]\nstrands = 300\n[hair.style.fringe]\nhalf_width = 5\n[neighbours]\ncarriers = 60\n\
+                [[free.regions]]\ngroups = [\"fringe\", \"top\"]\nhold = 4\n[[force]]\nthrough = 3\nvector = [-40, 0, 0]";
+    let build = |shown| Scene::parse(text, Path::new("s.toml"), &[]).unwrap().build(shown).unwrap();
+    let built = build(Shown::All);
+    let groups = built.groom.hair.attributes.group.as_ref().unwrap();
+    let belongs = |group: i32| [Region::Fringe as i32, Region::Top as i32].contains(&group);
+    let expected: Vec<f64> = groups.iter().map(|&group| f64::from(u8::from(belongs(group)))).collect();
+    assert_eq!(weights(&built), expected);
+    assert!(expected.contains(&0.0) && groups.contains(&(Region::Fringe as i32)));
+    // A preview has fewer strands and the same carriers, and each belongs as it does in the whole.
+    let few = build(Shown::AtMost(20));
+    for strand in few.strands().iter() {
+        let whole = built.strands().iter().position(|of| of[0] == strand[0]).unwrap();
+        assert_eq!(free(&few).weight_in(0, strand[0]), expected[whole]);
+    }
+    let carriers = |built: &BuiltScene| free(built).neighbours.clone().unwrap().carriers;
+    assert_eq!(carriers(&few), carriers(&built));
+    assert_eq!(carriers(&few).len(), 60);
+    for carrier in carriers(&few).iter() {
+        let whole = built.strands().iter().position(|of| of[0] == carrier[0]).unwrap();
+        assert_eq!(free(&few).weight_in(0, carrier[0]), expected[whole]);
+    }
+}
+
+#[test]
+fn a_group_that_a_preview_does_not_show_is_still_a_group() {
+    let text = "[motion]\nform = \"free\"\n[hair]\nstrands = 300\n[[free.regions]]\ngroups = [\"fringe\"]\n[[force]]\n\
+                through = 3\nvector = [-40, 0, 0]";
+    let built = Scene::parse(text, Path::new("s.toml"), &[]).unwrap().build(Shown::AtMost(3)).unwrap();
+    assert_eq!(weights(&built), [0.0; 3]);
+    let said: Vec<String> = built.advice().iter().map(ToString::to_string).collect();
+    let line = "free.regions[0] contains none of the 3 strands: none is in its groups";
+    assert!(said.iter().any(|said| said.starts_with(line)), "{said:?}");
+}
+
+/// Two prims of curves with a weight per curve, one per point, one that is too large, and words.
+const PAINTED: &str = r#"
+    float[] primvars:painted = [0.25, 1] ( interpolation = "uniform" )
+    float[] primvars:at_points = [0.5, 9, 9, 0, 9, 9] ( interpolation = "vertex" )
+    float[] primvars:large = [1.5, 1] ( interpolation = "uniform" )
+    string[] primvars:word = ["a", "b"] ( interpolation = "uniform" )"#;
+
+fn usda() -> String {
+    let mut text = "#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = \"Y\"\n)\n".to_owned();
+    for (name, x) in [("fringe", 6.0), ("back", -6.0)] {
+        let line = |z: f32| format!("({x}, 9, {z}), ({x}, 5, {z}), ({x}, 1, {z})");
+        write!(
+            text,
+            "def BasisCurves \"{name}\"\n{{\n    uniform token type = \"linear\"\n    int[] curveVertexCounts = [3, 3]\n    \
+             point3f[] points = [{}, {}]{PAINTED}\n}}\n",
+            line(-2.0),
+            line(2.0)
+        )
+        .unwrap();
+    }
+    text
+}
+
+/// The scene of this hair with a region of these settings.
+fn of_file(hair: &str, region: &str, more: &str, shown: Shown) -> Result<BuiltScene, String> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("hair.usda"), hair).unwrap();
+    let text = format!(
+        "[motion]\nform = \"free\"\n[hair]\nfile = \"hair.usda\"\norigin = [0, 0, 0]\nroot = \"first\"\n{more}\n\
+         [[free.regions]]\n{region}\nwind = 0.5\n[[force]]\nthrough = 3\nvector = [-40, 0, 0]"
+    );
+    let scene = Scene::parse(&text, &folder.path().join("s.toml"), &[]).map_err(|e| e.to_string())?;
+    scene.build(shown).map_err(|e| e.to_string())
+}
+
+fn imported(region: &str, more: &str, shown: Shown) -> Result<BuiltScene, String> {
+    of_file(&usda(), region, more, shown)
+}
+
+#[test]
+fn imported_hair_belongs_to_regions_by_its_prims_and_its_attributes() {
+    for (region, expected) in [
+        ("groups = [\"fringe\"]", [1.0, 1.0, 0.0, 0.0]),
+        ("groups = [\"back\", \"fringe\"]", [1.0; 4]),
+        ("attribute = \"painted\"", [0.25, 1.0, 0.25, 1.0]),
+        ("attribute = \"at_points\"", [0.5, 0.0, 0.5, 0.0]),
+        ("groups = [\"back\"]\nattribute = \"painted\"", [0.0, 0.0, 0.25, 1.0]),
+        ("groups = [\"back\"]\nattribute = \"painted\"\nnear = [-6, 9, 2]\nwithin = 1\nsoft = 0", [0.0, 0.0, 0.0, 1.0]),
+    ] {
+        for more in ["", "segments = 9"] {
+            let built = imported(region, more, Shown::All).unwrap();
+            assert_eq!(weights(&built), expected, "{region} {more}");
+            // Of fewer strands, each belongs as it does in the whole.
+            let few = imported(region, more, Shown::AtMost(2)).unwrap();
+            let of_few: Vec<f64> = few.groom.ids.iter().map(|&id| expected[id as usize]).collect();
+            assert_eq!(weights(&few), of_few, "{region} {more}");
+        }
+    }
+}
+
+/// A motion cache of other weights is of another motion; the name of a region is not part of the motion.
+#[test]
+fn weights_are_part_of_the_identity_of_a_motion() {
+    let identity = |hair: &str, region: &str| of_file(hair, region, "", Shown::All).unwrap().identity().unwrap();
+    let region = "attribute = \"painted\"";
+    let repainted = usda().replace("[0.25, 1]", "[0.5, 1]");
+    assert_ne!(usda(), repainted);
+    assert_ne!(identity(&usda(), region), identity(&repainted, region));
+    assert_eq!(identity(&usda(), region), identity(&usda(), &format!("name = \"a\"\n{region}")));
+    let by_place = "near = [6, 9, 2]";
+    assert_eq!(identity(&usda(), by_place), identity(&repainted, by_place));
+}
+
+#[test]
+fn groups_and_attributes_that_are_not_there_are_refused_with_those_that_are() {
+    for (region, line) in [
+        ("groups = [\"bangs\"]", "free.regions[0].groups = \"bangs\": no group of the hair; it has fringe, back"),
+        (
+            "attribute = \"word\"",
+            "free.regions[0].attribute = \"word\": no attribute of the hair with one number per strand or point; it has ",
+        ),
+        (
+            "attribute = \"large\"",
+            "free.regions[0].attribute = \"large\": must be 0 to 1 for each strand, but is 1.5 for strand 0",
+        ),
+        ("hold = 2", "free.regions[0].near is missing: give near, groups or attribute"),
+    ] {
+        let said = imported(region, "", Shown::All).map(|_| ()).unwrap_err();
+        assert!(said.contains(line), "{said}");
+    }
+    let bare = "[motion]\nform = \"free\"\n[[free.regions]]\nattribute = \"painted\"\n[[force]]\nthrough = 3\nvector = [1, 0, 0]";
+    let said = Scene::parse(bare, Path::new("s.toml"), &[]).unwrap().build(Shown::AtMost(9)).map(|_| ()).unwrap_err();
+    assert!(said.to_string().contains("the hair has no attributes with one number per strand or point"), "{said}");
+}
