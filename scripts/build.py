@@ -12,10 +12,12 @@ a few strands of a scene. The wheel needs maturin (pip install maturin).
 import argparse
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
 import venv
+import zipfile
 from pathlib import Path
 
 # Leaves no compiled files among the sources.
@@ -25,6 +27,7 @@ import archive
 import licences
 from version import ROOT, version
 
+OUR_LICENCES = ["LICENSE-MIT", "LICENSE-APACHE"]
 PROGRAMS = {"nabiki_cli": "nabiki", "nabiki_studio": "nabiki-studio"}
 MOVED = """
 import nabiki
@@ -95,15 +98,29 @@ def wheel(target, out, compatibility):
     before = set(out.glob("*.whl"))
     tags = ["--compatibility", compatibility] if compatibility else []
     build = ["build", "--release", "--locked", "--generate-stubs", "--target", target, "--out", out, *tags]
-    run(sys.executable, "-m", "maturin", *build, cwd=ROOT / "crates" / "nabiki_py", env=surroundings(target))
+    crate = ROOT / "crates" / "nabiki_py"
+    # pyproject.toml names the files in here as license-files. They must lie below it.
+    texts = crate / "licences"
+    try:
+        texts.mkdir(exist_ok=True)
+        for name in OUR_LICENCES:
+            shutil.copy(ROOT / name, texts)
+        listed = licences.listed(licences.used(licences.metadata(target), "nabiki_py"))
+        (texts / "THIRD-PARTY.txt").write_text(listed, encoding="utf-8", newline="\n")
+        run(sys.executable, "-m", "maturin", *build, cwd=crate, env=surroundings(target))
+    finally:
+        shutil.rmtree(texts)
     made = set(out.glob("*.whl")) - before
     assert len(made) == 1, f"one wheel was to be built: {', '.join(path.name for path in made) or 'none'}"
+    (built,) = made
+    inside = {Path(name).name for name in zipfile.ZipFile(built).namelist() if ".dist-info/licenses/" in name}
+    assert inside == {*OUR_LICENCES, "THIRD-PARTY.txt"}, f"licences in the wheel: {inside}"
     if target != this_machine():
         return print(f"SKIPPED: the wheel cannot be tried on {this_machine()}")
     with tempfile.TemporaryDirectory() as folder:
         venv.create(folder, with_pip=True)
         python = Path(folder) / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
-        run(python, "-m", "pip", "install", "--quiet", made.pop())
+        run(python, "-m", "pip", "install", "--quiet", built)
         run(python, "-c", MOVED)
 
 
