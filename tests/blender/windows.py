@@ -58,8 +58,10 @@ def test_panels_draw_whatever_there_is(command, shared):
             scenes.interval(hair, 5, (0, 40, 0))
             bpy.ops.nabiki.interval_add()
             assert hair.nabiki.intervals[1].through > 5
+            bpy.ops.nabiki.region_add()
         if state == "simulated":
             bpy.ops.nabiki.interval_remove()
+            bpy.ops.nabiki.region_remove()
             motions.simulated(hair, 10)
         if state == "changed":
             hair.nabiki.hold = 31
@@ -84,6 +86,7 @@ def test_panels_draw_whatever_there_is(command, shared):
                 seen |= set(self.layout.drawn)
     settings = {name for name in hair.nabiki.bl_rna.properties.keys() if name not in HIDDEN}
     assert settings <= seen, settings - seen
+    assert {"attribute", "vertex_group", "wind"} <= seen
     assert {"nabiki.simulate", "nabiki.solve", "nabiki.bake", "nabiki.clear"} <= seen and any("At rest" in line for line in seen)
 
 
@@ -129,19 +132,20 @@ def test_a_first_wind_blows_against_the_face_and_the_next_is_a_lull(command, sha
 
 
 # What is drawn as a list, or belongs to no user.
-HIDDEN = {"rna_type", "name", "intervals", "active_interval", "preview", "baked", "shown_before", "of"}
+HIDDEN = {"rna_type", "name", "intervals", "active_interval", "regions", "active_region", "preview", "baked", "shown_before", "of"}
 
 
 def test_every_setting_and_button_says_what_it_does(command, shared):
     """Tooltips are there, begin with a capital, and end without a full stop, as Blender's do."""
     hair = scenes.groom(8, moving=False)
     scenes.interval(hair, 5, (0, 0, 0))
-    for group in [hair.nabiki, hair.nabiki.intervals[0]]:
+    bpy.ops.nabiki.region_add()
+    for group in [hair.nabiki, hair.nabiki.intervals[0], hair.nabiki.regions[0]]:
         for known in group.bl_rna.properties:
             if known.identifier not in HIDDEN:
                 assert known.description and known.description[0].isupper() and not known.description.endswith("."), known.identifier
                 assert known.name and known.name[0].isupper(), known.identifier
-    for name in ["simulate", "solve", "bake", "clear", "interval_add", "interval_remove", "write_scene"]:
+    for name in ["simulate", "solve", "bake", "clear", "interval_add", "interval_remove", "region_add", "region_remove", "write_scene"]:
         kind = getattr(bpy.ops.nabiki, name).get_rna_type()
         assert name != "simulate" or {"name", "beside"} <= set(kind.properties.keys())
         assert kind.description and not kind.description.endswith(".") and kind.name.istitle() or kind.name == "Find the Wind", name

@@ -62,11 +62,11 @@ class NabikiRegion(bpy.types.PropertyGroup):
         description="Vertex group of the head: its weight at the root makes hair belong to the region. With an attribute, the weights multiply",
         update=changed,
     )
-    stiffness: FloatProperty(**declared("free.regions.stiffness"))
-    hold: FloatProperty(**declared("free.regions.hold"))
-    settle: FloatProperty(**declared("free.regions.settle"))
-    wind: FloatProperty(**declared("free.regions.wind"))
-    drag: FloatProperty(**declared("free.regions.drag"))
+    stiffness: FloatProperty(**declared("free.regions.stiffness", description="Factor on the stiffness of its hair"))
+    hold: FloatProperty(**declared("free.regions.hold", description="Factor on how firmly its hair returns to its place"))
+    settle: FloatProperty(**declared("free.regions.settle", description="Factor on the frames in which its hair settles. At 2, it swings twice as long"))
+    wind: FloatProperty(**declared("free.regions.wind", description="Factor on the forces on its hair. At 0, no wind moves it"))
+    drag: FloatProperty(**declared("free.regions.drag", description="Factor on how far a moving head leaves its hair behind"))
 
 
 FACING = [
