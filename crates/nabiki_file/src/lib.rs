@@ -150,6 +150,16 @@ impl Seek for PartFile {
     }
 }
 
+/// Writes a whole file. Until it is complete, the file that was there stays.
+///
+/// # Errors
+/// What the disk says.
+pub fn write(target: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = PartFile::create(target)?;
+    file.write_all(bytes)?;
+    file.finish()
+}
+
 /// Removes every part file that this program has open, and lets go of the folders that it holds: the last act of a program
 /// that is told to end.
 pub fn remove_unfinished() {

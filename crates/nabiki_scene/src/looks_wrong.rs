@@ -164,6 +164,8 @@ fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
         Form::Paper => None,
     };
     let strands = built.strands();
+    // A shard may well have no hair of a region.
+    let free = free.filter(|_| built.groom.shard.is_none());
     let regions = free.into_iter().flat_map(|free| (0..free.form.regions.len()).map(move |i| (free, i)));
     let empty = |&(free, i): &(&FreeMotion, usize)| strands.iter().all(|strand| free.weight_in(i, strand[0]) == 0.0);
     regions.filter(empty).map(|(free, i)| {
@@ -176,9 +178,12 @@ fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
                 let far = Short(region.within + region.soft);
                 format!("no root is within {far} cm of it; correct near, or raise within")
             }
-            None => "none is in its groups, or its attribute is 0 on all of them; correct these".to_owned(),
+            None if region.groups.is_empty() => "its attribute is 0 on all of them; correct it".to_owned(),
+            None if region.attribute.is_none() => "none is in its groups; correct these".to_owned(),
+            None => "its attribute is 0 on all of its groups; correct one of them".to_owned(),
         };
-        Advice::new(format!("free.regions[{i}] contains none of the {} strands: {why}", strands.len()))
+        let of = if strands.len() == 1 { "the only strand" } else { &format!("any of the {} strands", strands.len()) };
+        Advice::new(format!("free.regions[{i}] does not contain {of}: {why}"))
     })
 }
 

@@ -21,7 +21,6 @@ pub(crate) mod read;
 mod settings;
 pub(crate) mod tree;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use nabiki::SettingError;
@@ -32,7 +31,6 @@ use nabiki::field::{BodyWind, Fan, Flow, Gust, Point, Turbulence, Vortex, Wind};
 use nabiki::free_form::NeighbourForces;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki::setting::Key;
-use nabiki_file::PartFile;
 use nabiki_io::motion::MotionSource;
 use nabiki_io::{input, kind};
 use nabiki_render::Picture;
@@ -451,12 +449,7 @@ pub(crate) fn resolved(scene: &Path, path: &Path) -> PathBuf {
 /// # Errors
 /// Errors of the disk.
 pub fn write_scene(path: &Path, text: &str) -> Result<(), SceneError> {
-    let write = || {
-        let mut file = PartFile::create(path)?;
-        file.write_all(text.as_bytes())?;
-        file.finish()
-    };
-    write().map_err(|e: std::io::Error| {
+    nabiki_file::write(path, text.as_bytes()).map_err(|e| {
         let mut refused = nabiki_io::Error::from(e);
         // The file need not exist, only its folder.
         if refused.system() == Some(std::io::ErrorKind::NotFound) {

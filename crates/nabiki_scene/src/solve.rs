@@ -16,9 +16,7 @@ use crate::scene::{FieldPlace, FieldSettings, ForceSettings, Scene, given_as};
 
 pub use find::Named;
 pub use solved::{MET_CM, Solved};
-pub use wishes::{
-    Interval, NailEntry, Near, PriorEntry, SearchEntry, Unknowns, WishEntry, WishFile, WishSpace, Wishes,
-};
+pub use wishes::{Interval, NailEntry, Near, Unknowns, WishEntry, WishFile, WishSpace, Wishes};
 
 impl BuiltScene {
     /// The problem for these wishes and unknowns. Nodes are those of [`groom`](Self::groom); positions are in head

@@ -53,7 +53,7 @@ fn a_group_that_a_preview_does_not_show_is_still_a_group() {
     let built = Scene::parse(text, Path::new("s.toml"), &[]).unwrap().build(Shown::AtMost(3)).unwrap();
     assert_eq!(weights(&built), [0.0; 3]);
     let said: Vec<String> = built.advice().iter().map(ToString::to_string).collect();
-    let line = "free.regions[0] contains none of the 3 strands: none is in its groups";
+    let line = "free.regions[0] does not contain any of the 3 strands: none is in its groups";
     assert!(said.iter().any(|said| said.starts_with(line)), "{said:?}");
 }
 
@@ -117,6 +117,20 @@ fn imported_hair_belongs_to_regions_by_its_prims_and_its_attributes() {
     }
 }
 
+#[test]
+fn the_only_object_with_curves_is_a_group_of_all_hair_and_what_one_object_lacks_is_said() {
+    let only = usda().split("def BasisCurves \"back\"").next().unwrap().to_owned();
+    for region in ["groups = [\"fringe\"]", "groups = [\"/fringe\"]"] {
+        assert_eq!(weights(&of_file(&only, region, "", Shown::All).unwrap()), [1.0; 2], "{region}");
+    }
+    let said = of_file(&only, "groups = [\"back\"]", "", Shown::All).map(|_| ()).unwrap_err();
+    assert!(said.contains("no group of the hair; it has fringe"), "{said}");
+    let half = usda().replacen("primvars:painted", "primvars:other", 1);
+    let said = of_file(&half, "attribute = \"painted\"", "", Shown::All).map(|_| ()).unwrap_err();
+    let line = "free.regions[0].attribute = \"painted\": the file has it, but it was not read: ";
+    assert!(said.contains(line) && said.contains("only some of its objects"), "{said}");
+}
+
 /// A motion cache of other weights is of another motion; the name of a region is not part of the motion.
 #[test]
 fn weights_are_part_of_the_identity_of_a_motion() {
@@ -133,14 +147,18 @@ fn weights_are_part_of_the_identity_of_a_motion() {
 #[test]
 fn groups_and_attributes_that_are_not_there_are_refused_with_those_that_are() {
     for (region, line) in [
-        ("groups = [\"bangs\"]", "free.regions[0].groups = \"bangs\": no group of the hair; it has fringe, back"),
+        ("groups = [\"bangs\"]", "free.regions[0].groups = \"bangs\": no group of the hair; it has back, fringe"),
+        (
+            "attribute = \"nothing\"",
+            "free.regions[0].attribute = \"nothing\": no attribute of the hair with one number per strand or point; it has ",
+        ),
         (
             "attribute = \"word\"",
-            "free.regions[0].attribute = \"word\": no attribute of the hair with one number per strand or point; it has ",
+            "free.regions[0].attribute = \"word\": has words, but a weight is one number per strand or point",
         ),
         (
             "attribute = \"large\"",
-            "free.regions[0].attribute = \"large\": must be 0 to 1 for each strand, but is 1.5 for strand 0",
+            "free.regions[0].attribute = \"large\": is 1.5 at the root of strand 0 of 4, but must be 0 to 1: correct it in the file",
         ),
         ("hold = 2", "free.regions[0].near is missing: give near, groups or attribute"),
     ] {

@@ -166,6 +166,7 @@ fn full(key: &str) -> Scene {
         }
     }
     put("body[0].mesh", "b.obj".into());
+    put("free.regions[0].near", Value::Array(vec![0.0.into(); 3]));
     put("head.motion", toml::Table::new().into());
     put("picture.hair.colour", toml::from_str::<toml::Table>("melanin = { eumelanin = 1.0 }").unwrap().into());
     let of = |table: &Table, name: &str| table.settings.iter().any(|setting| key == format!("{name}.{}", setting.key));

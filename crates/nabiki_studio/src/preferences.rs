@@ -1,10 +1,8 @@
 //! What is remembered from one start to the next: window, view, files used last. Nothing that is wrong with it stops the
 //! start.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use nabiki_file::PartFile;
 use serde::{Deserialize, Serialize};
 
 use crate::play::Ending;
@@ -108,9 +106,7 @@ impl Preferences {
     pub fn save(&self, folder: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
         let text = toml::to_string(self).map_err(std::io::Error::other)?;
-        let mut file = PartFile::create(&folder.join(FILE))?;
-        file.write_all(text.as_bytes())?;
-        file.finish()
+        nabiki_file::write(&folder.join(FILE), text.as_bytes())
     }
 
     /// How many strands are shown, in words.

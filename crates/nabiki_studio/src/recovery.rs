@@ -4,11 +4,10 @@
 //! gone.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use nabiki_file::PartFile;
 use serde::{Deserialize, Serialize};
 
 use crate::document::Document;
@@ -116,9 +115,7 @@ impl Keeper {
         let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |passed| passed.as_secs());
         let kept = Kept { path: std::path::absolute(path)?, has_file, seconds, text, place: PathBuf::new() };
         let text = toml::to_string(&kept).map_err(io::Error::other)?;
-        let mut file = PartFile::create(&self.file)?;
-        file.write_all(text.as_bytes())?;
-        file.finish()
+        nabiki_file::write(&self.file, text.as_bytes())
     }
 
     /// Nothing is kept any more: it is saved, or to be lost.

@@ -35,7 +35,8 @@ pub struct Problem {
 }
 
 /// Preferences among solutions that meet the wishes equally well. They are small terms added to the wishes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Prior {
     /// Cost of changes, as a distance of all wishes (cm). It applies to a change of a vector by 100, of a border by 20
     /// frames, of the gusts by 1, or of stiffness or settling by a factor of e.

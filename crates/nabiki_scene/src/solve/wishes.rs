@@ -35,9 +35,9 @@ pub struct Wishes {
     /// Locks that should stay.
     pub nail: Vec<NailEntry>,
     /// Preferences among solutions.
-    pub prior: PriorEntry,
+    pub prior: Prior,
     /// Limits of the search.
-    pub search: SearchEntry,
+    pub search: Search,
 }
 
 /// The space of the points of a wish file.
@@ -148,58 +148,8 @@ pub struct NailEntry {
     pub weight: f32,
 }
 
-/// `[prior]`: small terms added to the wishes.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct PriorEntry {
-    /// Cost of a change of a vector by 100, as a distance of the wishes in cm (default 0.02).
-    pub keep: f32,
-    /// Cost of a difference of 100 between adjacent intervals (default 0.01).
-    pub alike: f32,
-}
-
-/// `[search]`: limits of the search.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct SearchEntry {
-    /// Largest number of steps from each start (default 30).
-    pub iterations: usize,
-    /// Largest number of starts (default 4).
-    pub starts: usize,
-    /// Distance from all wishes that is near enough (rms, cm; default 0.1): no other start is tried.
-    pub near: f64,
-    /// Seed of the other starts.
-    pub seed: u64,
-}
-
 fn one() -> f32 {
     1.0
-}
-
-impl Default for PriorEntry {
-    fn default() -> Self {
-        let Prior { keep, alike } = Prior::default();
-        Self { keep, alike }
-    }
-}
-
-impl From<PriorEntry> for Prior {
-    fn from(PriorEntry { keep, alike }: PriorEntry) -> Self {
-        Self { keep, alike }
-    }
-}
-
-impl Default for SearchEntry {
-    fn default() -> Self {
-        let Search { iterations, starts, near_cm: near, seed } = Search::default();
-        Self { iterations, starts, near, seed }
-    }
-}
-
-impl From<SearchEntry> for Search {
-    fn from(SearchEntry { iterations, starts, near: near_cm, seed }: SearchEntry) -> Self {
-        Self { iterations, starts, near_cm, seed }
-    }
 }
 
 impl WishFile {
@@ -265,7 +215,7 @@ impl Wishes {
                 return Err(SettingError::new(format!("{name}.frames"), "[]", remedy));
             }
         }
-        let SearchEntry { iterations, starts, near, .. } = self.search;
+        let Search { iterations, starts, near_cm: near, .. } = self.search;
         for (thing, value, most) in [("search.iterations", iterations, 10_000), ("search.starts", starts, 1000)] {
             if !(1..=most).contains(&value) {
                 return Err(SettingError::new(thing, value, format!("must lie in 1..{most}")));

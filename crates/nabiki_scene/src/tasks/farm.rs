@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nabiki_file::{PartFile, folder_of};
+use nabiki_file::folder_of;
 
 use crate::built::Shown;
 use crate::error::{Error, Result};
@@ -60,12 +60,7 @@ pub fn farm(scene: Scene, options: &FarmOptions, watch: &mut dyn Watch) -> Resul
         Engine::OpenJd => plan.template()?,
         Engine::Slurm => plan.script(),
     };
-    let write = || {
-        let mut file = PartFile::create(output)?;
-        std::io::Write::write_all(&mut file, text.as_bytes())?;
-        file.finish()
-    };
-    write().map_err(|e: std::io::Error| nabiki_io::Error::from(e).in_file(output))?;
+    nabiki_file::write(output, text.as_bytes()).map_err(|e| nabiki_io::Error::from(e).in_file(output))?;
     let holds = format!(
         "{} shards, {} frames in {} tasks, results into {}",
         plan.shards,

@@ -1,12 +1,10 @@
 //! Writes a scene to start from.
 
-use std::io::Write;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use nabiki::Hair;
-use nabiki_file::PartFile;
 use nabiki_io::motion::{self, ClipMover};
 use nabiki_io::{exchange, mesh};
 use nabiki_render::settings::{HairLook, Picture};
@@ -70,12 +68,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
         template.text += &format!("hair = {look}   # as thick as in its file (cm)\n");
         template.guesses.push(format!("picture.hair = {look}, as thick as the hair of the file"));
     }
-    let write = || {
-        let mut file = PartFile::create(path)?;
-        file.write_all(template.text.as_bytes())?;
-        file.finish()
-    };
-    write().map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
+    nabiki_file::write(path, template.text.as_bytes()).map_err(|e| nabiki_io::Error::from(e).in_file(path))?;
     if let Some(file) = &options.hair {
         super::unread(file, &built.groom.hair.attributes.unread, watch);
     }

@@ -68,11 +68,11 @@ pub fn find(mut scene: Scene, file: &WishFile, strands: usize, watch: &mut dyn W
     let said = held.into_iter().filter(|_| wishes.unknowns.is_some());
     super::advise(said.map(Advice::new), watch);
     let strands: BTreeSet<u32> = list.iter().flat_map(|wish| wish.nodes.iter().map(|node| node.strand)).collect();
-    let search: Search = wishes.search.into();
+    let search = wishes.search;
     let mut seconds = 0.0;
     let mut answer = |built: &BuiltScene, list: Vec<Wish>, watch: &mut dyn Watch| -> Result<(Scene, Report)> {
         let begun = Instant::now();
-        let problem = Problem { prior: wishes.prior.into(), ..built.problem(unknowns.clone(), list) };
+        let problem = Problem { prior: wishes.prior, ..built.problem(unknowns.clone(), list) };
         let refused = |refused: SettingError| match refused.thing.is_within(&"unknowns".into()) {
             true => in_file(refused),
             false => built.refusal(refused),

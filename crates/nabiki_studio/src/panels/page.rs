@@ -56,66 +56,36 @@ struct Panel<'a> {
 impl Panel<'_> {
     fn group(&self, ui: &mut Ui, page: Page, group: &'static Group, table: String, commands: &mut Commands) {
         let there = value_at(self.session.settings(), &table);
-        match group.shape {
-            Shape::Always => self.fold(
-                ui,
-                group,
-                &table,
-                group.title,
-                None,
-                true,
-                |ui, commands| {
-                    self.fields(ui, group, &table, commands);
-                },
-                commands,
-            ),
+        let count = match group.shape {
+            Shape::List(_) => there.and_then(Value::as_array).map_or(0, Vec::len),
+            Shape::Always | Shape::Optional(_) => 0,
+        };
+        let title = if count == 0 { group.title.to_owned() } else { format!("{} ({count})", group.title) };
+        let (switch, is_on) = match group.shape {
+            Shape::Always => (None, true),
             Shape::Optional(_) => {
                 let on = there.is_some();
-                let toggle = Command::Set {
-                    key: table.clone(),
-                    value: if on { None } else { group.fresh() },
-                    phase: Phase::Done,
-                };
-                self.fold(
-                    ui,
-                    group,
-                    &table,
-                    group.title,
-                    Some((on, toggle)),
-                    on,
-                    |ui, commands| {
-                        if on {
-                            self.fields(ui, group, &table, commands);
-                        } else {
-                            ui.label(theme::faint(group.help));
-                        }
-                    },
-                    commands,
-                );
+                let value = if on { None } else { group.fresh() };
+                (Some((on, Command::Set { key: table.clone(), value, phase: Phase::Done })), on)
             }
+            Shape::List(_) => (None, count > 0),
+        };
+        let body = |ui: &mut Ui, commands: &mut Commands| match group.shape {
+            Shape::Optional(_) if !is_on => {
+                ui.label(theme::faint(group.help));
+            }
+            Shape::Always | Shape::Optional(_) => self.fields(ui, group, &table, commands),
             Shape::List(_) => {
-                let count = there.and_then(Value::as_array).map_or(0, Vec::len);
-                let title = if count == 0 { group.title.to_owned() } else { format!("{} ({count})", group.title) };
-                self.fold(
-                    ui,
-                    group,
-                    &table,
-                    &title,
-                    None,
-                    count > 0,
-                    |ui, commands| {
-                        for i in 0..count {
-                            self.entry(ui, page, group, i, commands);
-                        }
-                        if ui.button("Add").hint(group.help).clicked() {
-                            let key = format!("{}[{count}]", group.table);
-                            commands.push(Command::Set { key, value: group.fresh(), phase: Phase::Done });
-                        }
-                    },
-                    commands,
-                );
+                for i in 0..count {
+                    self.entry(ui, page, group, i, commands);
+                }
+                if ui.button("Add").hint(group.help).clicked() {
+                    let key = format!("{}[{count}]", group.table);
+                    commands.push(Command::Set { key, value: group.fresh(), phase: Phase::Done });
+                }
             }
-        }
+        };
+        self.fold(ui, group, &table, &title, switch, is_on, body, commands);
     }
 
     fn entry(&self, ui: &mut Ui, page: Page, group: &'static Group, i: usize, commands: &mut Commands) {

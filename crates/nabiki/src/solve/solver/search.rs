@@ -13,13 +13,15 @@ use crate::solve::report::{Report, WishLeft};
 use crate::solve::unknowns::Answer;
 
 /// The limits of a search.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Search {
     /// Largest number of steps from each start.
     pub iterations: usize,
     /// Largest number of starts: that of the problem, and random ones around it.
     pub starts: usize,
     /// A motion this near to the wishes is near enough (root mean square, cm): the search tries no other start.
+    #[serde(rename = "near")]
     pub near_cm: f64,
     /// Seed of the other starts.
     pub seed: u64,

@@ -9,6 +9,7 @@ use nabiki_groom::style::Region;
 use nabiki_groom::{Growth, Hairline, grow_run_while};
 use nabiki_io::identity::StrandSum;
 
+use super::members::Names;
 use super::{Groom, GroomInputs, ShardOf, check_memory};
 use crate::built::model::Model;
 use crate::built::stage::{At, GoesOn, Stage};
@@ -104,7 +105,8 @@ pub(super) fn grow(
     };
     let ids = run.map(|number| number as u32).collect();
     let shard = inputs.wanted.shard.map(|shard| ShardOf { shard, strands: count, groom: StrandSum::default() });
-    let members = inputs.selectors.members(&[&hair, &first], &Region::ALL.map(Region::word));
+    let names = Names { of_others: &Region::ALL.map(Region::word), ..Names::default() };
+    let members = inputs.selectors.members(&[&hair, &first], &names);
     let (members, first) = (members.map_err(|refused| at.refusal(refused))?, first.strands);
     Ok(Groom { inputs: inputs.clone(), hair, of_scene: *strands, shard, imported: None, ids, first, members })
 }

@@ -7,6 +7,7 @@ use nabiki_io::hair::{self, ImportReport};
 use nabiki_io::identity::StrandSum;
 use nabiki_io::{DeclaredSpace, GroomCurves, GroomFile, Placement};
 
+use super::members::Names;
 use super::{Groom, GroomInputs, ShardOf, check_memory};
 use crate::built::stage::At;
 use crate::error::{Error, Result};
@@ -66,6 +67,14 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
         None => hair,
     };
     at.still_wanted(0.0)?;
+    let (frames, begins, curves) = (groom.frames()?, groom.start()?, groom.curves(&settings.file)?);
+    let of_all = match &curves.curves[..] {
+        [only] => only.path.rsplit('/').next().into_iter().chain([only.path.as_str()]).map(str::to_owned).collect(),
+        _ => Vec::new(),
+    };
+    let names = Names { of_all, ..Names::default() };
+    // Of all hair, so that any part of it has the same.
+    let members = inputs.selectors.members(&[&hair], &names).map_err(|refused| at.refusal(refused))?;
     let hair = match settings.strands {
         Some(count) if count > hair.strands.len() => {
             let (file, there) = (settings.file.display(), hair.strands.len());
@@ -75,7 +84,6 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
         Some(count) if count < hair.strands.len() => hair.select(&evenly(&hair, count, at)?),
         _ => hair,
     };
-    let members = inputs.selectors.members(&[&hair], &[]).map_err(|refused| at.refusal(refused))?;
     let of_scene = hair.strands.len();
     let first = (*first).min(of_scene);
     let first = if first == 0 { Hair::default() } else { hair.select(&farthest_first(&hair, first, at)?) };
@@ -92,7 +100,6 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
         (hair, (0..of_scene as u32).collect())
     };
     let (hair, first) = (cut(hair, settings.segments, at)?, cut(first, settings.segments, at)?.strands);
-    let (frames, begins, curves) = (groom.frames()?, groom.start()?, groom.curves(&settings.file)?);
     let imported = Some(Imported { placement, curves, report, frames, begins, declared, of_head, judged });
     Ok(Groom { inputs: inputs.clone(), hair, of_scene, shard, imported, ids, first, members })
 }
