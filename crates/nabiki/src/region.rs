@@ -135,9 +135,9 @@ impl Members {
         self.0.binary_search_by_key(&root, |of| of.0).map_or(0.0, |i| self.0[i].1.into())
     }
 
-    /// Their weights, in an order that depends only on the roots.
-    pub fn weights(&self) -> impl Iterator<Item = f32> {
-        self.0.iter().map(|of| of.1)
+    /// Coordinates of each root and its weight, in an order that depends only on the roots.
+    pub fn numbers(&self) -> impl Iterator<Item = f32> {
+        self.0.iter().flat_map(|&([x, y, z], weight)| [x, y, z].map(f32::from_bits).into_iter().chain([weight]))
     }
 }
 
@@ -206,5 +206,7 @@ mod tests {
         let members = Members::new(roots.into_iter().zip([0.25, 1.0, 0.5, 0.75]));
         let found = [Vec3::X, Vec3::Y, Vec3::new(0.0, -0.0, 2.0), Vec3::Z].map(|root| members.weight(root));
         assert_eq!(found, [0.75, 1.0, 0.5, 0.0]);
+        let numbers: Vec<f32> = members.numbers().collect();
+        assert_eq!(numbers, [0.0, 0.0, 2.0, 0.5, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.75]);
     }
 }

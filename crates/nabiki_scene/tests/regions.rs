@@ -136,9 +136,11 @@ fn the_only_object_with_curves_is_a_group_of_all_hair_and_what_one_object_lacks_
 fn weights_are_part_of_the_identity_of_a_motion() {
     let identity = |hair: &str, region: &str| of_file(hair, region, "", Shown::All).unwrap().identity().unwrap();
     let region = "attribute = \"painted\"";
-    let repainted = usda().replace("[0.25, 1]", "[0.5, 1]");
+    let repainted = usda().replace("[0.25, 1]", "[0, 1]");
     assert_ne!(usda(), repainted);
     assert_ne!(identity(&usda(), region), identity(&repainted, region));
+    // The same weights on other strands.
+    assert_ne!(identity(&usda().replace("[0.25, 1]", "[1, 0]"), region), identity(&repainted, region));
     assert_eq!(identity(&usda(), region), identity(&usda(), &format!("name = \"a\"\n{region}")));
     let by_place = "near = [6, 9, 2]";
     assert_eq!(identity(&usda(), by_place), identity(&repainted, by_place));

@@ -99,7 +99,7 @@ impl BuiltScene {
         if self.groom.imported.is_some() {
             // Of grown hair, these follow from its settings, and only some are known.
             for members in free.members.iter().flatten() {
-                add_numbers(digest, "members", &members.weights().collect::<Vec<_>>());
+                add_numbers(digest, "members", &members.numbers().collect::<Vec<_>>());
             }
         }
         // Accelerations are per second.
