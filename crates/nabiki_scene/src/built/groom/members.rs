@@ -81,7 +81,8 @@ impl Selector {
             if found.is_empty() && !names.of_others.contains(&group.as_str()) {
                 let word = |number: &i32| named.get(number).cloned().unwrap_or_else(|| number.to_string());
                 let known = there.iter().map(word).chain(names.of_others.iter().map(|&name| name.to_owned()));
-                let remedy = match listed(known.chain(names.of_all.first().cloned())) {
+                let all = names.of_all.first().filter(|_| hair.attributes.group.is_none());
+                let remedy = match listed(known.chain(all.cloned())) {
                     Some(known) => format!("no group of the hair; it has {known}"),
                     None => "the hair has no groups: use near or attribute".to_owned(),
                 };
