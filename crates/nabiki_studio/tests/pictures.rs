@@ -42,13 +42,13 @@ const MEAN_STOPS: f32 = 0.3;
 /// At rest and in the wind.
 const PATCHES: [patches::Case; 8] = [
     patches::Case { scene: "gust.toml", frame: 0, strands: 1000, azimuth: None, most: 0.8 },
-    patches::Case { scene: "gust.toml", frame: 45, strands: 1000, azimuth: None, most: 1.25 },
-    patches::Case { scene: "ponytail.toml", frame: 0, strands: 1000, azimuth: None, most: 0.95 },
-    patches::Case { scene: "ponytail.toml", frame: 30, strands: 1000, azimuth: None, most: 1.55 },
-    patches::Case { scene: "curls.toml", frame: 0, strands: 1000, azimuth: None, most: 1.05 },
-    patches::Case { scene: "curls.toml", frame: 40, strands: 1000, azimuth: None, most: 1.15 },
-    patches::Case { scene: "bob.toml", frame: 0, strands: 1000, azimuth: None, most: 0.9 },
-    patches::Case { scene: "bob.toml", frame: 24, strands: 1000, azimuth: None, most: 1.0 },
+    patches::Case { scene: "gust.toml", frame: 45, strands: 1000, azimuth: None, most: 1.15 },
+    patches::Case { scene: "ponytail.toml", frame: 0, strands: 1000, azimuth: None, most: 1.05 },
+    patches::Case { scene: "ponytail.toml", frame: 30, strands: 1000, azimuth: None, most: 1.4 },
+    patches::Case { scene: "curls.toml", frame: 0, strands: 1000, azimuth: None, most: 1.1 },
+    patches::Case { scene: "curls.toml", frame: 40, strands: 1000, azimuth: None, most: 1.05 },
+    patches::Case { scene: "bob.toml", frame: 0, strands: 1000, azimuth: None, most: 0.8 },
+    patches::Case { scene: "bob.toml", frame: 24, strands: 1000, azimuth: None, most: 1.1 },
 ];
 
 type Window = Harness<'static, App>;
