@@ -19,11 +19,11 @@ def painted(hair):
     weights = np.arange(scenes.STRANDS) % 3 / 2
     mask.data.foreach_set("value", weights.astype(np.float32))
     # Far enough from the border, which is as wide as a triangle.
-    height = motions_of(hair.data)[:, 0, 2] / scenes.RADIUS
+    height = strands_of(hair.data)[:, 0, 2] / scenes.RADIUS
     return height > 0.65, height < 0.35, weights
 
 
-def motions_of(data):
+def strands_of(data):
     return scenes.positions(data).reshape(scenes.STRANDS, scenes.POINTS, 3)
 
 
