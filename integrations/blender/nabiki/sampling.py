@@ -112,16 +112,13 @@ def digest(scene, thing):
     curves = np.empty(len(thing.data.curves), np.int32)
     thing.data.curves.foreach_get("points_length", curves)
     parts += [thing.name, curves, attributes.points_of(thing.data)]
+    # Weights of vertices are read at the next press: one by one, they would be too slow for each frame that is shown.
     for region in settings.regions:
         parts += [region.attribute, region.vertex_group]
         painted = thing.data.attributes.get(region.attribute) if region.attribute else None
         rows = attributes.values(painted) if painted is not None else None
         if rows is not None:
             parts.append(rows)
-        if region.vertex_group in head.vertex_groups:
-            number = head.vertex_groups[region.vertex_group].index
-            held = [(v.index, g.weight) for v in head.data.vertices for g in v.groups if g.group == number]
-            parts.append(np.array(held, np.float64))
     found = 0
     for part in parts:
         found = zlib.crc32(part.encode() if isinstance(part, str) else np.ascontiguousarray(part), found)
