@@ -67,8 +67,8 @@ def group_number(evaluated, what, group):
     return evaluated.vertex_groups[group].index
 
 
-def at_nearest(points, faces, weights, places):
-    """The weights of vertices at the points of the triangles that are nearest to some places."""
+def nearest(points, faces, places):
+    """The points of triangles that are nearest to some places: the three corners of each, and their shares, which add up to 1."""
     skin = BVHTree.FromPolygons(points.tolist(), faces.tolist())
     hits = [skin.find_nearest(place) for place in places.tolist()]
     at, corners = np.array([hit[0] for hit in hits]), faces[[hit[2] for hit in hits]]
@@ -77,7 +77,7 @@ def at_nearest(points, faces, weights, places):
     across = np.stack([np.cross(c - b, at - b), np.cross(a - c, at - c), np.cross(b - a, at - a)], 1)
     normal = np.cross(b - a, c - a)
     shares = np.einsum("nij,nj->ni", across, normal).clip(0)
-    return (weights[corners] * shares).sum(1) / shares.sum(1).clip(np.finfo(np.float64).tiny)
+    return corners, shares / shares.sum(1, keepdims=True).clip(np.finfo(np.float64).tiny)
 
 
 def placed(points, faces, to_world, origin):

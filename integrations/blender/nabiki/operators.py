@@ -87,6 +87,19 @@ class OfLists:
         return {"FINISHED"}
 
 
+class Remove(OfLists):
+    """Removes the selected entry of a list. `entries`, `active`: the settings with the list and with the selected number."""
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and len(getattr(hair_of(context.object).nabiki, cls.entries)) > 0
+
+    def change(self, scene, settings):
+        entries, active = getattr(settings, self.entries), getattr(settings, self.active)
+        entries.remove(active)
+        setattr(settings, self.active, max(0, min(active, len(entries) - 1)))
+
+
 class NABIKI_OT_interval_add(OfLists, bpy.types.Operator):
     bl_idname = "nabiki.interval_add"
     bl_label = "Add Wind"
@@ -101,18 +114,11 @@ class NABIKI_OT_interval_add(OfLists, bpy.types.Operator):
         settings.active_interval = len(settings.intervals) - 1
 
 
-class NABIKI_OT_interval_remove(OfLists, bpy.types.Operator):
+class NABIKI_OT_interval_remove(Remove, bpy.types.Operator):
     bl_idname = "nabiki.interval_remove"
     bl_label = "Remove Wind"
     bl_description = "Remove the selected wind"
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and len(hair_of(context.object).nabiki.intervals) > 0
-
-    def change(self, scene, settings):
-        settings.intervals.remove(settings.active_interval)
-        settings.active_interval = max(0, min(settings.active_interval, len(settings.intervals) - 1))
+    entries, active = "intervals", "active_interval"
 
 
 class NABIKI_OT_region_add(OfLists, bpy.types.Operator):
@@ -126,18 +132,11 @@ class NABIKI_OT_region_add(OfLists, bpy.types.Operator):
         settings.active_region = len(settings.regions) - 1
 
 
-class NABIKI_OT_region_remove(OfLists, bpy.types.Operator):
+class NABIKI_OT_region_remove(Remove, bpy.types.Operator):
     bl_idname = "nabiki.region_remove"
     bl_label = "Remove Region"
     bl_description = "Remove the selected region"
-
-    @classmethod
-    def poll(cls, context):
-        return super().poll(context) and len(hair_of(context.object).nabiki.regions) > 0
-
-    def change(self, scene, settings):
-        settings.regions.remove(settings.active_region)
-        settings.active_region = max(0, min(settings.active_region, len(settings.regions) - 1))
+    entries, active = "regions", "active_region"
 
 
 class NABIKI_OT_write_scene(jobs.Working, Named, ExportHelper, bpy.types.Operator):

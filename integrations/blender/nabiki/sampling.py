@@ -232,7 +232,7 @@ class Reader:
         if self.hair.left_out:
             self.notes.append(f"{self.hair.left_out} curves of length 0 are left out")
         self._check_roots()
-        self.regions = [self._weights(region, evaluated, to_world) for region in thing.nabiki.regions]
+        self.regions = self._weights(thing.nabiki.regions, evaluated, to_world)
         self.colliders = colliders(scene, thing)
         self.bodies = [self._body(other, graph) for other in self.colliders]
         self.fields, self.effectors = [], []
@@ -260,21 +260,31 @@ class Reader:
         if off > AFLOAT * size:
             self.notes.append(f'the roots are {cm:.2g} cm from the skin of "{self.head.name}"')
 
-    def _weights(self, region, evaluated, to_world):
-        """How much each strand belongs to a region."""
-        hair, weights = self.hair, None
-        if region.attribute:
-            _, rows = hair.by_strand.get(region.attribute) or hair.by_point.get(region.attribute) or (None, None)
-            if rows is None or rows.shape[1] != 1:
-                of = "attribute with one number per curve or point"
-                raise Mistake(f'"{self.thing.name}" has no {of} "{region.attribute}": correct it in Nabiki > Regions > {region.name}')
-            weights = rows[hair.offsets[:-1], 0] if region.attribute not in hair.by_strand else rows[:, 0]
-        if region.vertex_group:
-            of_vertices = meshes.group_weights(evaluated, "the head", region.vertex_group)
-            points, faces = meshes.placed(meshes.vertices(evaluated), meshes.corners(evaluated), to_world, self.origin)
-            of_group = meshes.at_nearest(points, faces, of_vertices, hair.points[hair.offsets[:-1]].astype(np.float64))
-            weights = of_group if weights is None else weights * of_group
-        return weights
+    def _weights(self, regions, evaluated, to_world):
+        """How much each strand belongs to each region, or None for a region without weights."""
+        roots, corners = self.hair.offsets[:-1], None
+        if any(region.vertex_group for region in regions):
+            skin = meshes.placed(meshes.vertices(evaluated), meshes.corners(evaluated), to_world, self.origin)
+            corners, shares = meshes.nearest(*skin, self.hair.points[roots].astype(np.float64))
+        found = []
+        for region in regions:
+            weights = self._painted(region, roots) if region.attribute else None
+            if region.vertex_group:
+                of_vertices = meshes.group_weights(evaluated, "the head", region.vertex_group)
+                of_group = (of_vertices[corners] * shares).sum(1)
+                weights = of_group if weights is None else weights * of_group
+            found.append(weights)
+        return found
+
+    def _painted(self, region, roots):
+        """The number at each root of a region's attribute."""
+        name = region.attribute
+        by_strand = name in self.hair.by_strand
+        _, rows = (self.hair.by_strand if by_strand else self.hair.by_point).get(name, (None, None))
+        if rows is None or rows.shape[1] != 1:
+            of = "attribute with one number per curve or point"
+            raise Mistake(f'"{self.thing.name}" has no {of} "{name}": correct it in Nabiki > Regions > {region.name}')
+        return rows[:, 0] if by_strand else rows[roots, 0]
 
     def _body(self, other, graph):
         check_enabled(self.layer, other)
