@@ -53,7 +53,7 @@ impl Selector {
     /// Root and weight of each strand that belongs to the region.
     fn members(&self, key: &str, hair: &Hair, names: &Names<'_>) -> Result<Vec<(Vec3, f32)>, SettingError> {
         let mut weights = vec![1.0; hair.strands.len()];
-        if let Some(chosen) = self.numbers(key, hair, names)?.filter(|_| !self.groups.is_empty()) {
+        if let Some(chosen) = self.numbers(key, hair, names)? {
             let groups = hair.attributes.group.as_deref().unwrap_or_default();
             weights.iter_mut().zip(groups).filter(|(_, group)| !chosen.contains(group)).for_each(|(w, _)| *w = 0.0);
         }
@@ -65,8 +65,11 @@ impl Selector {
         Ok(roots.zip(weights).filter(|&(_, weight)| weight > 0.0).collect())
     }
 
-    /// The numbers of the groups; `None` if one of them is all hair.
+    /// The numbers of the groups; `None` for all hair.
     fn numbers(&self, key: &str, hair: &Hair, names: &Names<'_>) -> Result<Option<BTreeSet<i32>>, SettingError> {
+        if self.groups.is_empty() {
+            return Ok(None);
+        }
         let named = &hair.attributes.group_names;
         let there: BTreeSet<i32> = hair.attributes.group.iter().flatten().copied().collect();
         let mut chosen = BTreeSet::new();
