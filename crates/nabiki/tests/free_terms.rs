@@ -123,14 +123,13 @@ fn still_air_is_a_wind_against_a_head_that_goes_evenly() {
 }
 
 /// By how much a unit of acceleration that is felt from rest on has moved what nothing else moves after a frame of two steps, each of
-/// which takes its part of the speed and goes on with theta = 0.6 of the new one.
+/// which takes its part of the speed and goes on with the new one.
 fn moved_in_a_frame(air: f64) -> f64 {
-    let (h, theta) = (0.5, 0.6);
+    let h = 0.5;
     let (mut way, mut speed) = (0.0, 0.0);
     for _ in 0..2 {
-        let next = (speed + h) / (1.0 + h * air);
-        way += h * (theta * next + (1.0 - theta) * speed);
-        speed = next;
+        speed = (speed + h) / (1.0 + h * air);
+        way += h * speed;
     }
     way
 }

@@ -10,7 +10,6 @@
 //! [`advance`], on which segments are turned.
 
 use super::pulls::{hold, joints};
-use super::reference::THETA;
 use super::rotate::turned;
 use super::segment::FreeSegment;
 use super::solve::slacken;
@@ -292,17 +291,15 @@ fn shear(next: &PointRow, work: &mut Work) {
 /// Turns a segment of every strand through a step of `h` frames, ignoring bodies. `from` and `to`: p_(i-1) and p_i after it.
 #[inline(always)]
 pub(super) fn advance(state: &mut FreeState, row: &FreeRow, work: &Work, h: f32, from: &PointRow, to: &mut PointRow) {
-    let theta = THETA as f32;
     let FreeState { mut direction, mut increment, .. } = *state;
     let (length, driven, from) = (row.length, work.driven, *from);
     let mut end = ZERO;
     for lane in 0..LANES {
-        let (d, before) = (lane_of(&direction, lane), lane_of(&increment, lane));
-        let w = lane_of(&driven, lane);
+        let (d, w) = (lane_of(&direction, lane), lane_of(&driven, lane));
         let w = scale_add(-dot(w, d), d, w);
         let speed = dot(w, w) * (h * h);
         let w = scale(if speed > 1.0 { 1.0 / speed.sqrt() } else { 1.0 }, w);
-        let way = scale_add(theta * h, w, scale((1.0 - theta) * h, before));
+        let way = scale(h, w);
         let sum = add(d, way);
         // Hair at rest keeps its bits: a length that is 1 up to rounding is not corrected.
         let shorter = if dot(way, way) > 0.0 { 1.0 / dot(sum, sum).sqrt() } else { 1.0 };

@@ -17,7 +17,7 @@ use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::Strands;
 
-pub(super) use chain::{BENT, ROUNDS_PRESSED, THETA};
+pub(super) use chain::{AFTER, BEFORE, BENT, ROUNDS_PRESSED};
 pub(in crate::dynamics) use common::Common;
 pub(in crate::dynamics) use strand::{Springs, Strand};
 

@@ -37,7 +37,7 @@ pub(in crate::dynamics) struct FreeSegment {
 /// as that throw it. `gravity`: its strength. Real hair of 18 cm in segments of 1 cm takes five at 24 frames a second, two at 120.
 pub fn substeps(dynamics: &Dynamics, form: &FreeForm, gravity: f32, [length, segment]: [f64; 2]) -> u32 {
     /// Rad per step. In the gust under the earth's gravity at 24 frames a second, single strands pressed to the head keep moving to and
-    /// fro at 0.09 and 0.11, and all lie still at 0.07. Swings come out slower by a fiftieth, with the step's theta of 0.6.
+    /// fro at 0.09 and 0.11, and all lie still at 0.07. Swings come out slower by a fiftieth.
     const SWING: f64 = 0.07;
     /// Limit of the fastest ripple, sqrt(EI / lambda) / l^2, times the step. In the shipped scenes, curls and ponytail
     /// throw single strands at 13; at 10, curls do in a wind four times as strong.

@@ -3,7 +3,7 @@
 //! Loops over lanes are written as in [`kernel`](super::kernel), and for the same reasons.
 
 use super::kernel::{BEYOND, FreeRow, FreeState, NONE, ZERO, next};
-use super::reference::{BENT, THETA};
+use super::reference::{AFTER, BEFORE, BENT};
 use super::work::Work;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::vector::{add, dot, scale, scale_add, subtract};
@@ -107,8 +107,7 @@ type NodeRow = [Row; 4];
 /// Goes to the tips with the pentadiagonal system of the increments, for a step of `h` frames.
 #[inline(always)]
 pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [Work]) {
-    let theta = THETA as f32;
-    let (implicit, explicit) = ((h * theta).powi(2), h * h * theta * (1.0 - theta));
+    let [implicit, explicit] = [AFTER, BEFORE].map(|share| h * h * share as f32);
     let nothing = Left { next: NONE, after: NONE, right: ZERO };
     let (mut left, mut node_before): ([Left; 2], NodeRow) = ([nothing; 2], [NONE; 4]);
     let mut stiffness = answers(&rows[0], rows.get(1), &NONE, &work[0]);
@@ -147,7 +146,7 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [
             turned = scale_add(d, lane_of(&ahead[0], lane), turned);
             turned = scale_add(e, lane_of(&ahead[1], lane), turned);
             let driven = subtract(lane_of(&driven, lane), lane_of(&residual, lane));
-            let right = scale_add(h, driven, scale_add(-explicit, turned, scale(length, w)));
+            let right = scale_add(h, driven, scale_add(explicit, turned, scale(length, w)));
             let [one, two] = &left;
             let a = implicit * a;
             let b = (-a).mul_add(two.next.0[lane], implicit * b);
@@ -209,11 +208,11 @@ pub(super) fn unwind(work: &mut [Work]) {
 /// tensions of the next solve.
 #[inline(always)]
 pub(super) fn answer(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
-    let (theta, pressed) = (THETA as f32, *pressed);
+    let (shares, pressed) = ([AFTER as f32, -BEFORE as f32], *pressed);
     let turns = |work: &Work, state: &FreeState| {
         let (before, after, mut turns) = (state.increment, work.driven, ZERO);
         for lane in 0..LANES {
-            let by = scale_add(theta, lane_of(&after, lane), scale(1.0 - theta, lane_of(&before, lane)));
+            let by = scale_add(shares[0], lane_of(&after, lane), scale(shares[1], lane_of(&before, lane)));
             set_lane(&mut turns, lane, by);
         }
         turns
@@ -227,7 +226,7 @@ pub(super) fn answer(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &R
             let sum = scale(first.0[lane], lane_of(&behind, lane));
             let sum = scale_add(second.0[lane], lane_of(&here, lane), sum);
             let sum = scale_add(third.0[lane], lane_of(&ahead, lane), sum);
-            set_lane(&mut answer, lane, scale(-h * theta * pressed.0[lane], sum));
+            set_lane(&mut answer, lane, scale(-h * pressed.0[lane], sum));
         }
         (behind, here, bent) = (here, ahead, work[i].bent);
         work[i].moment = answer;

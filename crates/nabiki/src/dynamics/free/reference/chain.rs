@@ -7,8 +7,13 @@ use crate::dynamics::free::pulls::{hold, joints};
 use crate::dynamics::free::segment::FreeSegment;
 use crate::scalar::{Scalar, Turn, Vector};
 
-/// How far the step looks ahead: 1/2 would keep all swings, and 1 would damp them.
-pub const THETA: f64 = 0.6;
+/// The implicit step counts, in addition to the forces at its beginning, what Q answers to `AFTER` of the turn at its end
+/// less `BEFORE` of that at its beginning. Segments go all of a step with the rate at its end, so their directions are
+/// those in the middle between two rates: the step is exact to the second order whatever Q leaves out, but for
+/// `AFTER - BEFORE`, which damps ripples. It is stable for any stiffness if 4 `AFTER` is at least 1 + 2 (`AFTER - BEFORE`).
+/// With 0.1 for the difference, pressed strands go on hopping; with 0.2, a shaken head moves its hair by a sixth too little.
+pub const AFTER: f64 = 0.4;
+pub const BEFORE: f64 = 0.25;
 
 /// How strongly the joints of a bent strand, times the squared sine of the bend, resist a turn in the implicit step, in
 /// addition to a straight one. Q does not contain the turns of segments that point in different directions.
@@ -235,7 +240,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// (l (1 + h beta) + h^2 theta^2 P Q) w' = l w + h driven - h^2 theta (1 - theta) P Q w: a pentadiagonal system. What is driven becomes w'.
+    /// (l (1 + h beta) + 0.4 h^2 P Q) w' = l w + h driven + 0.25 h^2 P Q w: a pentadiagonal system. What is driven becomes w'.
     #[inline(always)]
     pub fn solve(&mut self, segments: &[Segment<S>], h: f64) {
         let n = segments.len();
@@ -256,11 +261,10 @@ impl<S: Scalar> Chain<S> {
                     turned += segment.increment * *x;
                 }
             }
-            let mut band = row.map(|x| x.times((h * THETA).powi(2)));
+            let mut band = row.map(|x| x.times(h * h * AFTER));
             band[2] += (S::from(1.0) + self.drag[i].times(h)).times(length);
             self.bands[i] = band;
-            let explicit = h * h * THETA * (1.0 - THETA);
-            self.driven[i] = segment.increment.times(length) + self.driven[i].times(h) - turned.times(explicit);
+            self.driven[i] = segment.increment.times(length) + self.driven[i].times(h) + turned.times(h * h * BEFORE);
         }
         // Elimination without pivots: inertia is on the diagonal.
         for i in 0..n {
@@ -294,10 +298,10 @@ impl<S: Scalar> Chain<S> {
             let mut turned = Vector::zero();
             for (k, x) in self.stiffness(i, segments).into_iter().enumerate() {
                 if let Some((j, segment)) = (i + k).checked_sub(1).and_then(|j| Some((j, segments.get(j)?))) {
-                    turned += (self.driven[j].times(THETA) + segment.increment.times(1.0 - THETA)) * x;
+                    turned += (self.driven[j].times(AFTER) - segment.increment.times(BEFORE)) * x;
                 }
             }
-            self.answers[i] = turned.times(-(h * THETA));
+            self.answers[i] = turned.times(-h);
         }
     }
 

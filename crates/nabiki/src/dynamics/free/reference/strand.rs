@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
-use super::chain::{Chain, ROUNDS_PRESSED, THETA};
+use super::chain::{Chain, ROUNDS_PRESSED};
 use super::common::Common;
 use super::contact::{Moving, PlacedBody, Touch, kept_from};
 use crate::body::Surface;
@@ -103,7 +103,7 @@ impl<S: Scalar> Segment<S> {
         if speed.value() > 1.0 {
             w = w * (S::from(1.0) / speed.sqrt());
         }
-        let way = w.times(THETA * h) + self.increment.times((1.0 - THETA) * h);
+        let way = w.times(h);
         if way == Vector::zero() {
             return (d, w);
         }
