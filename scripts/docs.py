@@ -18,7 +18,8 @@ sys.dont_write_bytecode = True
 import archive
 from version import ROOT, version
 
-PAGES = [*archive.PAPERS, "ARCHITECTURE.md", "CONTRIBUTING.md"]
+READMES = sorted(path.relative_to(ROOT).as_posix() for path in ROOT.glob("crates/*/README.md"))
+PAGES = [*archive.PAPERS, "ARCHITECTURE.md", "CONTRIBUTING.md", *READMES]
 
 
 def pages(reference):

@@ -165,12 +165,11 @@ fn every_scene_in_the_docs_runs_as_it_stands() {
     }
 }
 
-/// The program of the README is the doc-test of the crate, which runs.
+/// The program of the crate's README is its doc-test, which runs.
 #[test]
 fn the_program_of_the_readme_is_the_one_that_is_tested() {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
-    let program = readme.split("```rust\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let program =
+        include_str!("../README.md").split("```rust\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let documented = include_str!("../src/lib.rs").lines().filter_map(|line| line.strip_prefix("//!"));
     let tested: String = documented
         .map(|line| line.strip_prefix(' ').unwrap_or(line))
