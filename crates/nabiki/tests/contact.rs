@@ -174,8 +174,8 @@ fn what_rests_on_a_body_slides_by_what_friction_leaves() {
     let contact = Contact { margin: 0.05, friction: 0.5, static_friction: 0.8 };
     let board = body(board(Vec3::new(12.0, 1.0, 12.0)), at(Vec3::new(10.0, 12.95, 0.0)), contact);
     let dynamics = free(limp(), board, 1);
-    // Both steps of a frame speed it up as much, and go on with six tenths of the new speed and four of the old one.
-    let moves = 0.55 * nabiki::dynamics::push(&dynamics, 10.0) as f32;
+    // Both steps of a frame speed it up as much, and go on with the new speed: half of a half, and half of a whole.
+    let moves = 0.75 * nabiki::dynamics::push(&dynamics, 10.0) as f32;
     let inward = 20.0;
     for (along, left) in [(10.0, 0.0), (15.0, 0.0), (17.0, 7.0), (40.0, 30.0)] {
         let pushes = field(&[(1, [0.0, -inward, along])]);

@@ -188,10 +188,10 @@ fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
     }
 }
 
-/// On every segment of hair that has settled, the moments of its joints and of hold hold what hangs on its end: field and weight of all
+/// On every segment of hair that has settled, the moments of its joints, of hold and of what supports its weight hold what hangs on its end: field and weight of all
 /// nodes from there on, each on half of the two segments beside it. B is EI over the way between two middles. Straight hair is not twisted,
-/// and its frames are those that turn least; what holds weight at rest goes with the mean of the two frames beside a joint, and where a
-/// segment stands up, hold with it.
+/// and its frames are those that turn least. What supports weight at rest loses its force as the segment turns along it, and where a segment
+/// stands up, hold supports it.
 #[test]
 fn settled_hair_is_in_balance() {
     let (strands, force, gravity) = (star(12, 6, Vec3::new(0.0, 12.0, 0.0)), DVec3::new(-40.0, 10.0, 25.0), 50.0);
@@ -227,18 +227,18 @@ fn settled_hair_is_in_balance() {
                 let carried = frames[i] * of.direction;
                 let between = if i == 0 { 0.5 * of.length } else { 0.5 * (rest[i - 1].length + of.length) };
                 let bending = 0.375 * length * stiffness.at(of.begin) * f64::from(dynamics.segment_length).powi(2);
-                let at_rest = |j: usize| strand[j + 1].as_dvec3() - strand[i].as_dvec3();
-                let carries: DVec3 = (i..6).map(|j| -at_rest(j).cross(node(j) * weight(&Pose::STILL))).sum();
                 frames.push(DQuat::from_rotation_arc(carried, d[i]) * frames[i]);
-                let carried_along = 0.5 * (frames[i] * carries + frames[i + 1] * carries);
-                moments.push(bending / between * d[i].cross(carried) + carried_along);
+                moments.push(bending / between * d[i].cross(carried));
             }
             moments.push(DVec3::ZERO);
             for (i, of) in rest.iter().enumerate() {
                 let hangs: DVec3 = (i..6).map(|j| node(j) * (force + weight(&tilted))).sum();
                 let held = hold.at(of.middle) + (-weight(&Pose::STILL)).dot(of.direction).max(0.0);
                 let held = held * (1.0 - of.middle) * length * of.length * d[i].cross(of.direction);
-                let left = moments[i] - moments[i + 1] + held + of.length * d[i].cross(hangs);
+                let beyond: f64 = (i..6).map(node).sum();
+                let support = (-beyond * weight(&Pose::STILL)).reject_from(of.direction);
+                let supported = (1.0 - d[i].dot(support.normalize_or_zero()).powi(2)).powi(2) * support;
+                let left = moments[i] - moments[i + 1] + held + of.length * d[i].cross(hangs + supported);
                 let left = left.reject_from(d[i]);
                 assert!(left.length() < tolerance, "segment {i}: {left} of {}", (of.length * hangs).length());
             }

@@ -168,7 +168,8 @@ impl Case<'_> {
             let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             // Carriers are those of the fast stepper, which is as near as that is.
             let near = if crowds.is_some() { 1e-2 } else { 1e-9 };
-            assert!(off(&points.tangents, &on.tangents) < near, "tangents depend on where they are begun");
+            let off = off(&points.tangents, &on.tangents);
+            assert!(off < near, "tangents depend on where they are begun: by {off}");
             assert!(points.places.iter().zip(&on.places).all(|(a, b)| a.distance(*b) < near));
         }
         let untouched = self.without_bodies().run(&x);

@@ -28,8 +28,8 @@ pub struct Chain {
     lengths: Vec<f64>,
     masses: Vec<f64>,
     rest: Vec<DVec3>,
-    /// What each joint turns its outer segment by at rest, to hold the weight beyond.
-    moments: Vec<DVec3>,
+    /// The force across each segment, times its length, that supports the weight beyond at rest.
+    supports: Vec<DVec3>,
     points: Vec<DVec3>,
     velocities: Vec<DVec3>,
 }
@@ -40,10 +40,10 @@ impl Chain {
         let lengths: Vec<f64> = ways.iter().map(|way| way.length()).collect();
         let n = ways.len();
         let masses = (0..n).map(|i| 0.5 * (lengths[i] + lengths.get(i + 1).unwrap_or(&0.0))).collect::<Vec<_>>();
-        let beyond = |i: usize| (i..n).map(|j| (points[j + 1] - points[i]).cross(masses[j] * of.weight)).sum::<DVec3>();
-        let moments = (0..n).map(|i| -beyond(i)).collect();
-        let rest = ways.iter().map(|way| way.normalize()).collect();
-        Self { of, lengths, masses, rest, moments, points: points.to_vec(), velocities: vec![DVec3::ZERO; n + 1] }
+        let rest: Vec<DVec3> = ways.iter().map(|way| way.normalize()).collect();
+        let beyond = |i: usize| masses[i..].iter().sum::<f64>() * lengths[i] * of.weight;
+        let supports = (0..n).map(|i| -beyond(i).reject_from_normalized(rest[i])).collect();
+        Self { of, lengths, masses, rest, supports, points: points.to_vec(), velocities: vec![DVec3::ZERO; n + 1] }
     }
 
     /// Its points in the frames from 0 on. `force`: at a place, in the step to a frame; `root`: how far it is moved at a time.
@@ -90,7 +90,7 @@ impl Chain {
         for i in 0..n {
             let carried = frame * self.rest[i];
             let apart = if i == 0 { 0.5 * self.lengths[0] } else { 0.5 * (self.lengths[i - 1] + self.lengths[i]) };
-            moments[i] = frame * self.moments[i] + self.of.bending[i] / apart * directions[i].cross(carried);
+            moments[i] = self.of.bending[i] / apart * directions[i].cross(carried);
             frame = DQuat::from_rotation_arc(carried, directions[i]) * frame;
         }
         let mut forces = vec![DVec3::ZERO; n + 1];
@@ -98,7 +98,11 @@ impl Chain {
         for i in (0..n).rev() {
             let held = self.of.hold[i] * (beyond + 0.5 * self.lengths[i]) * self.lengths[i];
             beyond += self.lengths[i];
-            let torque = moments[i] - moments[i + 1] + held * directions[i].cross(self.rest[i]);
+            // Less, the more the segment is turned along its support.
+            let support = self.supports[i];
+            let across = 1.0 - directions[i].dot(support.normalize_or_zero()).powi(2);
+            let on_head = held * self.rest[i] + across.powi(2) * support;
+            let torque = moments[i] - moments[i + 1] + directions[i].cross(on_head);
             let couple = torque.cross(directions[i]) / self.lengths[i];
             forces[i + 1] += couple;
             forces[i] -= couple;

@@ -9,7 +9,7 @@
 //! A step goes along the strands to and fro: [`carry`], [`untwist`] and [`bend`] for the joints, the systems of [`solve`](super::solve), and
 //! [`advance`], on which segments are turned.
 
-use super::pulls::{hold, joints};
+use super::pulls::{hold, joints, weight};
 use super::rotate::turned;
 use super::segment::FreeSegment;
 use super::solve::slacken;
@@ -61,9 +61,11 @@ pub(super) struct FreeRow {
     pub push: Row,
     /// 1/m_i; 0 where the segment is held.
     pub lightness: Row,
-    /// B_i and N_i of the joint at its beginning.
+    /// B_i of the joint at its beginning.
     pub bending: Row,
-    pub carries: PointRow,
+    /// u_i and S_i.
+    pub up: PointRow,
+    pub supports: Row,
     /// C_i.
     pub hold: Row,
     /// The rounding error that the solve leaves at rest.
@@ -88,7 +90,8 @@ impl FreeRow {
         self.push.0[lane] = segment.push as f32;
         self.lightness.0[lane] = segment.lightness as f32;
         self.bending.0[lane] = segment.bending as f32;
-        set_lane(&mut self.carries, lane, segment.carries.as_vec3().to_array());
+        set_lane(&mut self.up, lane, segment.up.as_vec3().to_array());
+        self.supports.0[lane] = segment.supports as f32;
         self.hold.0[lane] = segment.hold as f32;
     }
 }
@@ -129,7 +132,8 @@ pub(super) static BEYOND: (FreeState, FreeRow, Work) = (
         push: NONE,
         lightness: NONE,
         bending: NONE,
-        carries: ZERO,
+        up: ZERO,
+        supports: NONE,
         hold: NONE,
         residual: ZERO,
     },
@@ -156,8 +160,7 @@ pub(super) fn carry(
     work: &mut [Work],
 ) {
     let (mut end, mut velocity, mut frame) = (*roots, ZERO, FrameRow::AT_REST);
-    let (mut carried, mut loaded) = (rows[0].rest, rows[0].carries);
-    let mut load = ZERO;
+    let mut carried = rows[0].rest;
     let (mut handed, mut above, mut turned_by) = (NONE, NONE, NONE);
     let torsion = joints::TORSION as f32;
     for (i, ((state, row), work)) in states.iter().zip(rows).zip(work).enumerate() {
@@ -172,9 +175,9 @@ pub(super) fn carry(
             work.weight = of_rest;
         }
         let FreeState { direction, increment, twist, .. } = *state;
-        let FreeRow { length, lightness, bending: bends, carries, .. } = *row;
+        let FreeRow { length, lightness, bending: bends, .. } = *row;
         let FreeState { direction: next_direction, twist: next_twist, .. } = *next_state;
-        let FreeRow { rest: next_at_rest, bending: next_bends, carries: next_carries, .. } = *next_row;
+        let FreeRow { rest: next_at_rest, bending: next_bends, .. } = *next_row;
         for lane in 0..LANES {
             let (d, w) = (lane_of(&direction, lane), lane_of(&increment, lane));
             let length = length.0[lane];
@@ -199,10 +202,6 @@ pub(super) fn carry(
             frame.scalar.0[lane] = s;
             frame.over_length.0[lane] = over;
             let next_rest = turned(u, s, over, lane_of(&next_at_rest, lane));
-            // Halfway between the two segments, so that it adds no energy.
-            let here = turned(u, s, over, lane_of(&carries, lane));
-            set_lane(&mut load, lane, scale(0.5, add(lane_of(&loaded, lane), here)));
-            let next_load = turned(u, s, over, lane_of(&next_carries, lane));
 
             let (next_d, bending) = (lane_of(&next_direction, lane), next_bends.0[lane]);
             let stiff = torsion * bends.0[lane];
@@ -221,9 +220,8 @@ pub(super) fn carry(
             turned_by.0[lane] = (-lower).mul_add(turned_by.0[lane], right) * over;
             handed.0[lane] = hands;
             set_lane(&mut carried, lane, next_rest);
-            set_lane(&mut loaded, lane, next_load);
         }
-        (work.end, work.velocity, work.moment) = (end, velocity, load);
+        (work.end, work.velocity) = (end, velocity);
         (work.above, work.tension) = (above, turned_by);
     }
 }
@@ -243,8 +241,9 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]
         let (done, work) = work.split_at_mut(i);
         let work = &mut work[0];
         let FreeState { direction, mut twist, .. } = *state;
-        let FreeRow { over_length, rest, bending: bends, hold, .. } = *row;
-        let Work { handed, tension: turned_by, carried: at_rest, mut moment, .. } = *work;
+        let FreeRow { over_length, rest, bending: bends, hold, up, supports, .. } = *row;
+        let Work { handed, tension: turned_by, carried: at_rest, .. } = *work;
+        let mut moment = ZERO;
         for lane in 0..LANES {
             let (d, bending) = (lane_of(&direction, lane), bends.0[lane]);
             let by = turned_before.0[lane];
@@ -252,7 +251,7 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]
             let half = 0.5 * by;
             let (u, over) = (scale(half, lane_of(&before, lane)), 2.0 / half.mul_add(half, 1.0));
             let carried = turned(u, 1.0, over, lane_of(&at_rest, lane));
-            let bent = add(lane_of(&moment, lane), joints::moment_lane(bending, carried, d));
+            let bent = joints::moment_lane(bending, carried, d);
             let along = torsion * bending * twist.0[lane] / (1.0 + dot(d, carried)).max(1e-12);
             set_lane(&mut moment, lane, scale_add(-along, add(d, carried), bent));
         }
@@ -264,10 +263,11 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]
         let (mut held, mut end_way) = (ZERO, ZERO);
         for lane in 0..LANES {
             let d = lane_of(&direction, lane);
-            set_lane(&mut held, lane, hold::moment_lane(hold.0[lane], lane_of(&rest, lane), d));
+            let supported = weight::moment_lane(lane_of(&up, lane), supports.0[lane], d);
+            set_lane(&mut held, lane, add(supported, hold::moment_lane(hold.0[lane], lane_of(&rest, lane), d)));
             set_lane(&mut end_way, lane, scale(over_length.0[lane], d));
         }
-        // The shear is only hold until the moment of the next joint is known.
+        // The shear is only hold and support until the moment of the next joint is known.
         (work.shear, work.end_way) = (held, end_way);
     }
     if let Some(last) = work.last_mut() {

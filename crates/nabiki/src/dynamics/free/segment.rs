@@ -21,8 +21,9 @@ pub(in crate::dynamics) struct FreeSegment {
     pub lightness: f64,
     /// B_i of the joint at its beginning: its moment per radian (cm^3 per frame^2).
     pub bending: f64,
-    /// N_i, the moment with which that joint carries the weight beyond it at rest.
-    pub carries: DVec3,
+    /// u_i and S_i: what supports the weight of it and of all beyond at rest (cm^3 per frame^2).
+    pub up: DVec3,
+    pub supports: f64,
     /// C_i: the moment per radian with which hold turns it back.
     pub hold: f64,
     /// alpha_i, the share of the node's speed that the air takes (1 per frame).
@@ -99,30 +100,32 @@ pub(in crate::dynamics) fn free_segments(
         push: 0.0,
         lightness: 0.0,
         bending: 0.0,
-        carries: DVec3::ZERO,
+        up: DVec3::ZERO,
+        supports: 0.0,
         hold: 0.0,
         air: 0.0,
         drag: 0.0,
     };
     let mut segments: Vec<FreeSegment> = (0..shapes.len()).map(still).collect();
-    // From the tip: the length of hair beyond each node, and the moment of its weight.
-    let (mut beyond, mut carries) = (0.0, DVec3::ZERO);
+    // From the tip: the length of hair that each segment holds by its end.
+    let mut beyond = 0.0;
     for i in (held..shapes.len()).rev() {
         let shape = shapes[i];
         let next = shapes.get(i + 1).map_or(0.0, |next| next.length);
         let before = if i == held { 0.0 } else { shapes[i - 1].length };
         let mass = 0.5 * (shape.length + next);
         beyond += mass;
-        carries += weight::moment(points[i + 1] - points[i], beyond * rest_weight);
+        let rest = still(i).rest;
+        let (up, supports) = weight::support(rest, beyond * shape.length * rest_weight);
         let middle = length * shape.middle;
-        let held = own.hold * form.hold.at(shape.middle)
-            + weight::held_up(&free.rest_pose, form.gravity.into(), still(i).rest);
+        let held = own.hold * form.hold.at(shape.middle) + weight::held_up(&free.rest_pose, form.gravity.into(), rest);
         segments[i] = FreeSegment {
             push,
             lightness: 1.0 / mass,
             bending: joints::bending(dynamics, push, length, own.stiffness * form.stiffness.at(shape.begin))
                 / (0.5 * (before + shape.length)),
-            carries,
+            up,
+            supports,
             hold: hold::moment_per_radian(push, held, length - middle, shape.length),
             air: own.air * form.air(shape.middle) / (own.settle * f64::from(dynamics.motion.slow)),
             drag: own.drag * form.drag.at(shape.middle),

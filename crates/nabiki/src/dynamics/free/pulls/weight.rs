@@ -1,9 +1,13 @@
-//! Weight, which pulls on every node, and the moments N of the joints that carry it at rest, so that groomed hair does not sag.
+//! Weight, which pulls on every node, and what supports it at rest, so that groomed hair does not sag: the moment S (1 - (d u)^2)^2 (d x u)
+//! on a segment, with u across its direction at rest. It depends on the segment's direction on the head alone, and so has a potential: no way
+//! round the head gains from it. It is gone where hair is turned along u, so hair that is thrown up falls.
 
 use glam::DVec3;
 
 use crate::dynamics::pull::{Name, Pull};
 use crate::pose::Pose;
+use crate::scalar::{Scalar, Vector};
+use crate::vector::{cross, dot, scale};
 
 /// Of `free.gravity`.
 pub struct Gravity(pub f32);
@@ -32,7 +36,26 @@ pub fn held_up(pose: &Pose, gravity: f64, rest: DVec3) -> f64 {
     (-on_head(pose, gravity).dot(rest)).max(0.0)
 }
 
-/// The moment against what hangs on the end of a segment with direction `way`.
-pub fn moment(way: DVec3, hangs: DVec3) -> DVec3 {
-    hangs.cross(way)
+/// u, of length 1, and S, for a segment with this direction at rest and what hangs on it: force times length. Where it hangs straight down,
+/// S is 0.
+pub fn support(rest: DVec3, hangs: DVec3) -> (DVec3, f64) {
+    let across = hangs.dot(rest) * rest - hangs;
+    (across.normalize_or_zero(), across.length())
+}
+
+/// The moment that supports it.
+#[inline(always)]
+pub fn moment<S: Scalar>(up: DVec3, supports: f64, d: Vector<S>) -> Vector<S> {
+    let up = Vector::from(up);
+    let along = d.dot(up);
+    let across = S::from(1.0) - along * along;
+    d.cross(up) * (across * across).times(supports)
+}
+
+/// The same for one lane.
+#[inline(always)]
+pub fn moment_lane(up: [f32; 3], supports: f32, d: [f32; 3]) -> [f32; 3] {
+    let along = dot(d, up);
+    let across = (-along).mul_add(along, 1.0);
+    scale(supports * (across * across), cross(d, up))
 }

@@ -3,7 +3,7 @@
 use glam::DQuat;
 
 use super::strand::Segment;
-use crate::dynamics::free::pulls::{hold, joints};
+use crate::dynamics::free::pulls::{hold, joints, weight};
 use crate::dynamics::free::segment::FreeSegment;
 use crate::scalar::{Scalar, Turn, Vector};
 
@@ -84,9 +84,6 @@ impl<S: Scalar> Chain<S> {
             let (d, carried) = (segment.direction, frame.of_known(segment.moved_by.rest));
             (self.frames[i], self.carried[i], self.bending[i]) = (frame, carried, segment.bending);
             frame = Turn::about(d, segment.twist).after(Turn::smallest(carried, d)).after(frame);
-            // Halfway between the two segments, so that it adds no energy.
-            let carries = segment.moved_by.carries;
-            self.moments[i] = (self.frames[i].of_known(carries) + frame.of_known(carries)).times(0.5);
             self.velocities[i + 1] = self.velocities[i] + segment.increment.times(segment.moved_by.shape.length);
         }
         self.untwist(segments);
@@ -95,7 +92,7 @@ impl<S: Scalar> Chain<S> {
             let carried = if i > 0 { self.turns[i - 1].of(self.carried[i]) } else { self.carried[i] };
             let along = (d + carried) / (S::from(1.0) + d.dot(carried));
             let twisted = along * (segment.twist * segment.bending).times(joints::TORSION);
-            self.moments[i] += joints::moment(segment.bending, carried, d) - twisted;
+            self.moments[i] = joints::moment(segment.bending, carried, d) - twisted;
         }
     }
 
@@ -150,9 +147,10 @@ impl<S: Scalar> Chain<S> {
         let n = segments.len();
         // s_i, the shear of the joints' moments.
         for (i, segment) in segments.iter().enumerate() {
-            let FreeSegment { shape, hold, rest, .. } = segment.moved_by;
-            let moment = self.moments[i] - self.moments[i + 1] + hold::moment(hold, rest, segment.direction);
-            self.forces[i] = moment.cross(segment.direction).times(1.0 / shape.length);
+            let (FreeSegment { shape, hold, rest, up, supports, .. }, d) = (segment.moved_by, segment.direction);
+            let on_head = hold::moment(hold, rest, d) + weight::moment(up, supports, d);
+            let moment = self.moments[i] - self.moments[i + 1] + on_head;
+            self.forces[i] = moment.cross(d).times(1.0 / shape.length);
         }
         // rho_i, without the drag on its own increment.
         let mut before = Vector::zero();
