@@ -59,3 +59,42 @@ pub fn moment_lane(up: [f32; 3], supports: f32, d: [f32; 3]) -> [f32; 3] {
     let across = (-along).mul_add(along, 1.0);
     scale(supports * (across * across), cross(d, up))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+
+    /// Of -S (x - 2/3 x^3 + x^5 / 5), with x = d . u: so no turn of a segment and back gains from it.
+    #[test]
+    fn the_support_has_a_potential() {
+        let (up, supports) = support(DVec3::new(0.6, -0.48, 0.64), DVec3::new(0.0, -3.0, 0.5));
+        let potential = |d: DVec3| {
+            let x = d.dot(up);
+            -supports * (x - 2.0 / 3.0 * x.powi(3) + 0.2 * x.powi(5))
+        };
+        for n in 0..200 {
+            let of = |k: f64| (f64::from(n) * k).sin();
+            let d = DVec3::new(of(1.1), of(1.7), of(2.3)).normalize();
+            let axis = DVec3::new(of(2.9), of(3.1), of(3.7)).normalize();
+            let turned = |by: f64| DQuat::from_axis_angle(axis, by) * d;
+            let falls = (potential(turned(-1e-4)) - potential(turned(1e-4))) / 2e-4;
+            let works = moment::<f64>(up, supports, d.into()).value().dot(axis);
+            // Differences leave out a sixth of their square, times third derivatives of up to 7 S.
+            assert!((falls - works).abs() < 2e-8 * supports, "{d}: {falls}, not {works}");
+        }
+    }
+
+    /// Across the segment it takes all weight, and no more than that.
+    #[test]
+    fn at_rest_it_balances_what_hangs() {
+        for (rest, hangs) in
+            [(DVec3::X, -DVec3::Y), (DVec3::new(0.6, -0.8, 0.0), DVec3::new(0.0, -2.0, 0.0)), (-DVec3::Y, -DVec3::Y)]
+        {
+            let (up, supports) = support(rest, hangs);
+            let left = rest.cross(hangs) + moment::<f64>(up, supports, rest.into()).value();
+            assert!(left.length() < 1e-15, "{rest}: {left}");
+        }
+    }
+}
