@@ -74,7 +74,7 @@ mod tests {
             let x = d.dot(up);
             -supports * (x - 2.0 / 3.0 * x.powi(3) + 0.2 * x.powi(5))
         };
-        for n in 0..200 {
+        for n in 1..200 {
             let of = |k: f64| (f64::from(n) * k).sin();
             let d = DVec3::new(of(1.1), of(1.7), of(2.3)).normalize();
             let axis = DVec3::new(of(2.9), of(3.1), of(3.7)).normalize();
