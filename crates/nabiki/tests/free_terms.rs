@@ -188,8 +188,8 @@ fn the_pseudo_force_weakens_the_field_by_the_number_of_the_segment() {
     }
 }
 
-/// On every segment of hair that has settled, the moments of its joints, of hold and of what supports its weight hold what hangs on its end: field and weight of all
-/// nodes from there on, each on half of the two segments beside it. B is EI over the way between two middles. Straight hair is not twisted,
+/// On every segment of hair that has settled, the moments of its joints, of hold and of what supports its weight hold what hangs on its
+/// end: field and weight of all nodes from there on, each on half of the two segments beside it. B is EI over the way between two middles. Straight hair is not twisted,
 /// and its frames are those that turn least. What supports weight at rest loses its force as the segment turns along it, and where a segment
 /// stands up, hold supports it.
 #[test]
