@@ -120,4 +120,4 @@ pub use strands::Strands;
 
 /// Version of the computed motion. It increases whenever the same scene moves differently, even by one bit. Caches and
 /// saved states store it, so motion of another version is recognised.
-pub const METHOD_VERSION: u32 = 3;
+pub const METHOD_VERSION: u32 = 4;

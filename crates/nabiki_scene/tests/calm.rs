@@ -86,3 +86,36 @@ fn soft_hair_comes_to_rest_after_the_wind() {
     let last = &ways[ways.len() - LAST..];
     assert!(last.iter().all(|&way| way < STILL_CM), "in the last frames nodes go {last:?} cm");
 }
+
+/// A hand that goes under the hair at the jaw and carries it off gives no node more than its own greatest speed within a frame: hair that is
+/// pressed between hand and jaw is not whipped away by its own joints.
+#[test]
+fn a_hand_throws_no_hair() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/hand.toml");
+    let built = Scene::load(&path, &[]).unwrap().build(Shown::AtMost(2000)).unwrap();
+    let of_hand = |frame: u32| -> Vec<glam::Vec3> {
+        let (_, mesh, pose) = built.shown_bodies(frame).next().unwrap();
+        mesh.positions.iter().map(|&p| pose.position_cm + pose.rotation * p).collect()
+    };
+    let ways = |now: &[glam::Vec3], before: &[glam::Vec3]| -> Vec<glam::Vec3> {
+        now.iter().zip(before).map(|(now, before)| *now - *before).collect()
+    };
+    let mut simulation = built.simulation().unwrap();
+    let (mut hand, mut hair) = (of_hand(0), simulation.strands().points().to_vec());
+    let (mut fastest, mut hardest) = (0.0_f32, 0.0_f32);
+    let mut velocities = vec![glam::Vec3::ZERO; hair.len()];
+    for frame in 1..=built.frames() {
+        simulation.step_frame(&built.input(frame));
+        let now = of_hand(frame);
+        fastest = ways(&now, &hand).into_iter().map(glam::Vec3::length).fold(fastest, f32::max);
+        hand = now;
+        let after = ways(simulation.strands().points(), &hair);
+        hardest = ways(&after, &velocities).into_iter().map(glam::Vec3::length).fold(hardest, f32::max);
+        velocities = after;
+        hair.copy_from_slice(simulation.strands().points());
+    }
+    assert!(
+        hardest < fastest,
+        "a node is {hardest} cm a frame faster than a frame before, the hand goes {fastest} at most"
+    );
+}

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::kernel::{FreeRow, FreeState, bend, carry, ends, stay_behind, untwist};
+use super::kernel::{FreeRow, FreeState, NONE, bend, carry, ends, stay_behind, untwist};
 use super::packed::{Packed, Plan, Step};
 use super::passes::{Blown, Go, Place, Stepped, Velocities};
 use super::reference::ROUNDS_PRESSED;
@@ -75,14 +75,14 @@ impl Packed {
             let closer = bodies.iter().map(|body| body.closer).fold(0.0, f32::max);
             let stepped = Stepped { of, bodies, h, closer };
             stepped.push(states, work);
-            solve_chain::<false>(states, rows, h, work);
+            solve_chain::<false>(states, rows, h, &NONE, work);
             // Joints hold a pressed node, so it does not move as pushed: tensions need not take the other nodes there.
             if !bodies.is_empty()
                 && let Some(pressed) = pressed(states)
             {
                 for _ in 0..ROUNDS_PRESSED {
-                    answer(states, rows, h, &pressed, work);
-                    solve_chain::<true>(states, rows, h, work);
+                    answer(rows, h, &pressed, work);
+                    solve_chain::<true>(states, rows, h, &pressed, work);
                 }
             }
             let page = if n == step.steps as usize { page.take() } else { None };
@@ -139,14 +139,14 @@ impl Packed {
     }
 }
 
-/// Finds the tensions, and the increments at the end of a step of `h` frames. `ANSWERED`: takes into account how the joints answered
-/// before, see [`answer`].
+/// Finds the tensions, and the increments at the end of a step of `h` frames. `ANSWERED`: takes into account how the joints of the
+/// `pressed` strands answered before, see [`answer`].
 #[inline(always)]
-fn solve_chain<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [Work]) {
+fn solve_chain<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
     pull_taut::<ANSWERED>(states, rows, work);
     slacken(work);
     drive(states, rows, work);
-    solve(states, rows, h, work);
+    solve(states, rows, h, pressed, work);
     unwind(work);
 }
 

@@ -17,7 +17,7 @@ use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::strands::Strands;
 
-pub(super) use chain::{AFTER, BEFORE, BENT, ROUNDS_PRESSED};
+pub(super) use chain::{AFTER, AFTER_PRESSED, BEFORE, BENT, ROUNDS_PRESSED};
 pub(in crate::dynamics) use common::Common;
 pub(in crate::dynamics) use strand::{Springs, Strand};
 

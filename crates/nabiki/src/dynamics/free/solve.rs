@@ -3,7 +3,7 @@
 //! Loops over lanes are written as in [`kernel`](super::kernel), and for the same reasons.
 
 use super::kernel::{BEYOND, FreeRow, FreeState, NONE, ZERO, next};
-use super::reference::{AFTER, BEFORE, BENT};
+use super::reference::{AFTER, AFTER_PRESSED, BEFORE, BENT};
 use super::work::Work;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::vector::{add, dot, scale, scale_add, subtract};
@@ -104,10 +104,13 @@ struct Left {
 /// The acceleration of the middle node by turns of four segments in a row.
 type NodeRow = [Row; 4];
 
-/// Goes to the tips with the pentadiagonal system of the increments, for a step of `h` frames.
+/// Goes to the tips with the pentadiagonal system of the increments, for a step of `h` frames. `pressed`: 1 for strands
+/// that are solved as pressed, 0 for others.
 #[inline(always)]
-pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [Work]) {
-    let [implicit, explicit] = [AFTER, BEFORE].map(|share| h * h * share as f32);
+pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
+    let share = |free: f64, pressed: f64| move |by: f32| h * h * if by > 0.0 { pressed as f32 } else { free as f32 };
+    let implicit = Row(pressed.0.map(share(AFTER, AFTER_PRESSED)));
+    let explicit = Row(pressed.0.map(share(BEFORE, 0.0)));
     let nothing = Left { next: NONE, after: NONE, right: ZERO };
     let (mut left, mut node_before): ([Left; 2], NodeRow) = ([nothing; 2], [NONE; 4]);
     let mut stiffness = answers(&rows[0], rows.get(1), &NONE, &work[0]);
@@ -124,6 +127,7 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, work: &mut [
         let work = &mut work[i];
         let Work { drag, driven, .. } = *work;
         for lane in 0..LANES {
+            let (implicit, explicit) = (implicit.0[lane], explicit.0[lane]);
             let (length, up) = (length.0[lane], lightness.0[lane]);
             let node = [
                 up * stiffness[0].0[lane],
@@ -207,26 +211,18 @@ pub(super) fn unwind(work: &mut [Work]) {
 /// After a solve of `h` frames: records how the joints of the `pressed` strands answer the turns found, for the
 /// tensions of the next solve.
 #[inline(always)]
-pub(super) fn answer(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
-    let (shares, pressed) = ([AFTER as f32, -BEFORE as f32], *pressed);
-    let turns = |work: &Work, state: &FreeState| {
-        let (before, after, mut turns) = (state.increment, work.driven, ZERO);
-        for lane in 0..LANES {
-            let by = scale_add(shares[0], lane_of(&after, lane), scale(shares[1], lane_of(&before, lane)));
-            set_lane(&mut turns, lane, by);
-        }
-        turns
-    };
-    let (mut behind, mut here, mut bent) = (ZERO, turns(&work[0], &states[0]), NONE);
+pub(super) fn answer(rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
+    let share = Row(pressed.0.map(|pressed| -h * AFTER_PRESSED as f32 * pressed));
+    let (mut behind, mut here, mut bent) = (ZERO, work[0].driven, NONE);
     for (i, row) in rows.iter().enumerate() {
-        let ahead = turns(next(work, i, &BEYOND.2), next(states, i, &BEYOND.0));
+        let ahead = next(work, i, &BEYOND.2).driven;
         let [first, second, third] = answers(row, rows.get(i + 1), &bent, &work[i]);
         let mut answer = ZERO;
         for lane in 0..LANES {
             let sum = scale(first.0[lane], lane_of(&behind, lane));
             let sum = scale_add(second.0[lane], lane_of(&here, lane), sum);
             let sum = scale_add(third.0[lane], lane_of(&ahead, lane), sum);
-            set_lane(&mut answer, lane, scale(-h * pressed.0[lane], sum));
+            set_lane(&mut answer, lane, scale(share.0[lane], sum));
         }
         (behind, here, bent) = (here, ahead, work[i].bent);
         work[i].moment = answer;

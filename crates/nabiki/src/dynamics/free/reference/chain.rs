@@ -11,9 +11,13 @@ use crate::scalar::{Scalar, Turn, Vector};
 /// less `BEFORE` of that at its beginning. Segments go all of a step with the rate at its end, so their directions are
 /// those in the middle between two rates: the step is exact to the second order whatever Q leaves out, but for
 /// `AFTER - BEFORE`, which damps ripples. It is stable for any stiffness if 4 `AFTER` is at least 1 + 2 (`AFTER - BEFORE`).
-/// With 0.1 for the difference, pressed strands go on hopping; with 0.2, a shaken head moves its hair by a sixth too little.
+/// With 0.2 for the difference, a shaken head moves its hair by a sixth too little.
 pub const AFTER: f64 = 0.4;
 pub const BEFORE: f64 = 0.25;
+
+/// `AFTER` of a pressed strand, which has no `BEFORE`. Joints and a body throw it to and fro in every step, and such swings are
+/// to die at once: with the shares of free hair, a hand at the jaw whips strands across the face.
+pub const AFTER_PRESSED: f64 = 0.6;
 
 /// How strongly the joints of a bent strand, times the squared sine of the bend, resist a turn in the implicit step, in
 /// addition to a straight one. Q does not contain the turns of segments that point in different directions.
@@ -239,8 +243,11 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// (l (1 + h beta) + 0.4 h^2 P Q) w' = l w + h driven + 0.25 h^2 P Q w: a pentadiagonal system. What is driven becomes w'.
+    /// Of a `pressed` strand, with 0.6 and 0.
     #[inline(always)]
-    pub fn solve(&mut self, segments: &[Segment<S>], h: f64) {
+    pub fn solve(&mut self, segments: &[Segment<S>], h: f64, pressed: bool) {
+        let [implicit, explicit] =
+            if pressed { [AFTER_PRESSED, 0.0] } else { [AFTER, BEFORE] }.map(|share| h * h * share);
         let n = segments.len();
         let zero = S::from(0.0);
         let mut before = [zero; 5];
@@ -259,10 +266,10 @@ impl<S: Scalar> Chain<S> {
                     turned += segment.increment * *x;
                 }
             }
-            let mut band = row.map(|x| x.times(h * h * AFTER));
+            let mut band = row.map(|x| x.times(implicit));
             band[2] += (S::from(1.0) + self.drag[i].times(h)).times(length);
             self.bands[i] = band;
-            self.driven[i] = segment.increment.times(length) + self.driven[i].times(h) + turned.times(h * h * BEFORE);
+            self.driven[i] = segment.increment.times(length) + self.driven[i].times(h) + turned.times(explicit);
         }
         // Elimination without pivots: inertia is on the diagonal.
         for i in 0..n {
@@ -289,17 +296,17 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// After a solve: records how the joints answer the turns found, for the tensions of the next solve.
+    /// After a solve of a pressed strand: records how the joints answer the turns found, for the tensions of the next solve.
     #[inline(always)]
     pub fn answer(&mut self, segments: &[Segment<S>], h: f64) {
         for i in 0..segments.len() {
             let mut turned = Vector::zero();
             for (k, x) in self.stiffness(i, segments).into_iter().enumerate() {
-                if let Some((j, segment)) = (i + k).checked_sub(1).and_then(|j| Some((j, segments.get(j)?))) {
-                    turned += (self.driven[j].times(AFTER) - segment.increment.times(BEFORE)) * x;
+                if let Some(after) = (i + k).checked_sub(1).and_then(|j| self.driven.get(j)) {
+                    turned += *after * x;
                 }
             }
-            self.answers[i] = turned.times(-h);
+            self.answers[i] = turned.times(-h * AFTER_PRESSED);
         }
     }
 

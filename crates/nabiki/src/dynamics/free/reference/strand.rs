@@ -210,12 +210,12 @@ impl<S: Scalar> Strand<S> {
             }
             self.chain.bend(&mut self.segments);
             self.push(common, bodies);
-            self.solve(share);
+            self.solve(share, false);
             // Joints hold a pressed node, so it does not move as pushed: tensions need not take the other nodes there.
             if self.segments.iter().any(|segment| segment.pressed.value() > 0.0) {
                 for _ in 0..ROUNDS_PRESSED {
                     self.chain.answer(&self.segments, share);
-                    self.solve(share);
+                    self.solve(share, true);
                 }
             }
             self.go(common, bodies, share);
@@ -224,11 +224,11 @@ impl<S: Scalar> Strand<S> {
 
     /// Finds the tensions, and the increments at the end of a step of `h` frames.
     #[inline(always)]
-    fn solve(&mut self, h: f64) {
+    fn solve(&mut self, h: f64, pressed: bool) {
         for (driven, residual) in self.chain.drive(&self.segments).iter_mut().zip(&self.residual) {
             *driven = *driven - *residual;
         }
-        self.chain.solve(&self.segments, h);
+        self.chain.solve(&self.segments, h, pressed);
     }
 
     /// Evaluates what acts once a frame: the field and the neighbours.
