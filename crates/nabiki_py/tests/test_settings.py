@@ -83,6 +83,8 @@ file = "h.hair"
 strands = 5
 segments = 5
 {LIE}[disturbance]
+[[body]]
+capsule = {{ from = [0, 0, 0], to = [0, 1, 0], radius = 2.0 }}
 """
 
 

@@ -39,7 +39,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 use toml_edit::DocumentMut;
 
-pub use body::BodySettings;
+pub use body::{BodySettings, CapsuleSettings};
 pub use error::{Problem, SceneError};
 pub use field::{FieldBound, FieldSettings, OwnField};
 pub(crate) use field::{FieldParts, FieldPlace};
@@ -323,7 +323,7 @@ impl Scene {
             named.extend(motion.skeleton.as_deref());
         }
         for body in &self.bodies {
-            named.push(&body.mesh);
+            named.extend(body.capsule.is_none().then_some(&*body.mesh));
             if let Some(motion) = &body.motion {
                 named.push(&motion.file);
                 named.extend(motion.skeleton.as_deref());

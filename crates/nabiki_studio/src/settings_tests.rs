@@ -24,7 +24,8 @@ fn scenes() -> Vec<Scene> {
          [output]\nsheet = [0]\nfirst_frame = 0\n[picture.video]\nframe_rate = 24.0\n"
     );
     let imported = format!(
-        "{wind}[head]\nmesh = \"h.obj\"\n{lie}[hair]\nfile = \"h.hair\"\nstrands = 5\nsegments = 5\n{lie}[picture.hair.colour.melanin]\neumelanin = 1.0\n[disturbance]\n"
+        "{wind}[head]\nmesh = \"h.obj\"\n{lie}[hair]\nfile = \"h.hair\"\nstrands = 5\nsegments = 5\n{lie}[picture.hair.colour.melanin]\neumelanin = 1.0\n[disturbance]\n\
+         [[body]]\ncapsule = {{ from = [0, 0, 0], to = [0, 1, 0], radius = 2.0 }}\n"
     );
     vec![read(&most), read(&imported)]
 }

@@ -23,7 +23,7 @@ pub(crate) struct BuiltBody {
     pub way: BodyWay,
     /// How its file lies in that space.
     pub placement: Placement,
-    /// Its skin, once it is needed for contact.
+    /// Its shape: a capsule, or the skin of the mesh once that is needed for contact.
     shape: OnceLock<Shape>,
 }
 
@@ -59,21 +59,31 @@ impl Stage for BuiltBody {
     fn make(inputs: BodyInputs, at: At<'_>) -> Result<Self> {
         let BodyInputs { file: scene, number, settings, frame_rate } = &inputs;
         let name = format!("body[{number}]");
-        let file = at.there(scene, &format!("{name}.mesh"), &settings.mesh)?;
-        let declared = declared_space(&file)?;
-        let placement = settings.placement(declared.unit, declared.up);
-        placement.check(&name).map_err(|refused| at.refusal(refused))?;
-        let (mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
+        let capsule = settings.as_capsule(&name).map_err(|refused| at.refusal(refused))?;
+        let (file, placement, mesh, unread, shape) = match capsule {
+            Some(capsule) => {
+                let shape = OnceLock::from(Shape::Other(Arc::new(capsule)));
+                (None, Placement::default(), capsule.mesh(), Vec::new(), shape)
+            }
+            None => {
+                let file = at.there(scene, &format!("{name}.mesh"), &settings.mesh)?;
+                let declared = declared_space(&file)?;
+                let placement = settings.placement(declared.unit, declared.up);
+                placement.check(&name).map_err(|refused| at.refusal(refused))?;
+                let (mesh, report) = mesh::import(&file, &placement, &settings.groups)?;
+                (Some(file), placement, mesh, report.unread, OnceLock::new())
+            }
+        };
         let way = match &settings.motion {
             _ if settings.with_head => BodyWay::WithHead,
             None => BodyWay::InWorld(Arc::new([Pose::STILL])),
             Some(source) => {
-                let (scene, source, mesh) = (scene.clone(), source.clone(), Some(file));
-                let motion = WayInputs { file: scene, source, mesh, placement, frame_rate: *frame_rate };
+                let (scene, source) = (scene.clone(), source.clone());
+                let motion = WayInputs { file: scene, source, mesh: file, placement, frame_rate: *frame_rate };
                 BodyWay::InWorld(motion.read(&format!("{name}.motion"), at)?.poses.into())
             }
         };
-        Ok(Self { inputs, mesh, unread: report.unread, way, placement, shape: OnceLock::new() })
+        Ok(Self { inputs, mesh, unread, way, placement, shape })
     }
 }
 

@@ -19,8 +19,8 @@ use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::looks_wrong::unused;
 use crate::scene::{
-    Amount, BodySettings, FieldBound, FieldSettings, ForceSettings, FormChoice, FreeSettings, GrownHair, HairSource,
-    ImportedHair, Measure, Scene,
+    Amount, BodySettings, CapsuleSettings, FieldBound, FieldSettings, ForceSettings, FormChoice, FreeSettings,
+    GrownHair, HairSource, ImportedHair, Measure, Scene,
 };
 use crate::schema;
 use nabiki_io::info::Short;
@@ -389,7 +389,12 @@ fn body_in_words(scene: &Scene, body: &BodySettings) -> String {
         FormChoice::Free => labelled::<Contact>("margin", body.margin),
     };
     let seen = if body.shown { "" } else { ", hidden" };
-    format!("{}, {way}, {felt}{seen}", named(scene, &body.mesh))
+    let shape = match body.capsule {
+        None => named(scene, &body.mesh),
+        Some(CapsuleSettings { to: None, radius, .. }) => format!("a ball of radius {} cm", Short(radius)),
+        Some(CapsuleSettings { radius, .. }) => format!("a capsule of radius {} cm", Short(radius)),
+    };
+    format!("{shape}, {way}, {felt}{seen}")
 }
 
 /// The fields other than `[[force]]`, each by its table, in the words of the schema.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use glam::Vec3;
 use nabiki::body::Contact;
+use nabiki::obstacle::Capsule;
 use nabiki::setting::{Key, Place, refused};
 use nabiki::{SettingError, settings};
 use nabiki_io::motion::{Axis, MotionSource};
@@ -12,11 +13,29 @@ use nabiki_render::settings::BodyLook;
 
 use super::head::check_placement;
 
+/// Farthest place of a capsule from the middle of its body (cm).
+const FARTHEST: f64 = 1000.0;
+
+settings! {
+    /// A capsule: all points within a radius of a line, or of a single point.
+    #[derive(Copy)]
+    pub struct CapsuleSettings {
+        /// One end of the line, in the body's space.
+        pub from: Vec3 = Vec3::ZERO => "From", must "[x, y, z]", unit "cm", least -FARTHEST, most FARTHEST;
+        /// The other end. Without it, the capsule is a ball.
+        pub to: Option<Vec3> = None => "To", unit "cm", least -FARTHEST, most FARTHEST, open "a ball";
+        /// The radius.
+        pub radius: f32 = 5.0 => "Radius", must "5.0", unit "cm", above 0.0, most FARTHEST;
+    }
+}
+
 settings! {
     /// An object besides the head that hair keeps out of in the free form.
     pub struct BodySettings where can_be_loaded {
-        /// The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required.
+        /// The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required without `capsule`.
         pub mesh: PathBuf = PathBuf::new() => "Mesh";
+        /// A capsule or ball in place of a mesh, which needs no file: an arm, a shoulder, a finger.
+        pub capsule: Option<CapsuleSettings> = None => "Capsule", open "the mesh";
         /// Groups, objects or nodes of the file to use. Uses all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";
         /// Length unit of the file.
@@ -68,10 +87,42 @@ impl BodySettings {
         }
     }
 
+    /// Its capsule, if it is one. `name` is the body's name in errors.
+    pub(crate) fn as_capsule(&self, name: &str) -> Result<Option<Capsule>, SettingError> {
+        let of = |CapsuleSettings { from, to, radius }| {
+            Capsule::new([from, to.unwrap_or(from)], radius, &format!("{name}.capsule"))
+        };
+        self.capsule.map(of).transpose()
+    }
+
+    /// Refuses what places a file, where there is none.
+    fn places_no_file(&self, at: &Place) -> Result<(), SettingError> {
+        let given = [
+            ("groups", !self.groups.is_empty()),
+            ("unit", self.unit.is_some()),
+            ("up", self.up.is_some()),
+            ("facing", self.facing.is_some()),
+            ("origin", self.origin.is_some()),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((key, _)) => refused(&at.key(key), "", "is for a mesh, and this body is a capsule: remove it"),
+            None => Ok(()),
+        }
+    }
+
     /// Refuses settings from which no body can be loaded.
     fn can_be_loaded(&self, at: &Place) -> Result<(), SettingError> {
-        if self.mesh.as_os_str().is_empty() {
-            return refused(&at.key("mesh"), "", "is missing: give the file of its mesh");
+        let of_a_mesh = !self.mesh.as_os_str().is_empty();
+        match self.capsule {
+            None if !of_a_mesh => {
+                return refused(&at.key("mesh"), "", "is missing: give the file of its mesh, or a capsule");
+            }
+            Some(_) if of_a_mesh => {
+                let remedy = "a body is a mesh or a capsule: remove one of the two";
+                return refused(&at.key("mesh"), self.mesh.display(), remedy);
+            }
+            Some(_) => self.places_no_file(at)?,
+            None => {}
         }
         if self.with_head && self.motion.is_some() {
             let remedy = "a body that moves with the head cannot have its own motion: remove one of the two";

@@ -59,6 +59,9 @@ pub(super) const GROUPS: &[Group] = &[
     )
     .shaped(Shape::List(""))
     .when(When::Free),
+    Group::new("Body capsule", "body.capsule", "A capsule or ball in place of a mesh.", &["from", "to", "radius"])
+        .shaped(Shape::Optional("from = [0.0, -20.0, 0.0]\nradius = 5.0"))
+        .when(When::Free),
     Group::new(
         "Body motion",
         "body.motion",

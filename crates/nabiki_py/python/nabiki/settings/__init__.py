@@ -8,7 +8,7 @@ from typing import Any, TypedDict
 from .. import _nabiki
 from ._table import Table, Tables
 from .hair import Clumps, Comb, Curl, Cut, Fringe, HairSettings, Hairline, Length, Lift, Parting, Ponytail, Stiffness, Style, Variation, Volume
-from .head import BodySettings, HeadSettings, MotionSource
+from .head import BodySettings, CapsuleSettings, HeadSettings, MotionSource
 from .motion import Contact, Disturbance, FreeSettings, LockVariation, Motion, NeighbourForces, PseudoForce, Region, Tie
 from .picture import Background, Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
 from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, ForceSettings, Gust, Point, Turbulence, Vortex, Wind

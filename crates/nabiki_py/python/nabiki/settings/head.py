@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from ._table import Arrays, File, Matrices, Numbers, Table, Tables
 
-__all__ = ["BodySettings", "HeadSettings", "MotionSource"]
+__all__ = ["BodySettings", "CapsuleSettings", "HeadSettings", "MotionSource"]
 
 
 class HeadSettings(Table):
@@ -294,13 +294,24 @@ class BodySettings(Table):
 
     @property
     def mesh(self) -> str:
-        """The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required. Path; default: none."""
+        """The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required without `capsule`. Path;
+        default: none.
+        """
         value: str = self._get('mesh')
         return value
 
     @mesh.setter
     def mesh(self, value: File | Arrays | None) -> None:
         self._set('mesh', value)
+
+    @property
+    def capsule(self) -> CapsuleSettings:
+        """A capsule or ball in place of a mesh, which needs no file: an arm, a shoulder, a finger."""
+        return CapsuleSettings(self._scene, self._key_of('capsule'))
+
+    @capsule.setter
+    def capsule(self, value: CapsuleSettings | Mapping[str, Any] | None) -> None:
+        self._set('capsule', value)
 
     @property
     def groups(self) -> tuple[str, ...]:
@@ -436,3 +447,39 @@ class BodySettings(Table):
     @colour.setter
     def colour(self, value: Numbers | None) -> None:
         self._set('colour', value)
+
+
+class CapsuleSettings(Table):
+    """A capsule: all points within a radius of a line, or of a single point."""
+
+    __slots__ = ()
+
+    @property
+    def from_(self) -> tuple[float, float, float]:
+        """One end of the line, in the body's space. 3 numbers, each -1000 to 1000 (cm); must be given."""
+        value: tuple[float, float, float] = self._get('from')
+        return value
+
+    @from_.setter
+    def from_(self, value: Numbers | None) -> None:
+        self._set('from', value)
+
+    @property
+    def to(self) -> tuple[float, float, float] | None:
+        """The other end. Without it, the capsule is a ball. 3 numbers, each -1000 to 1000 (cm); default: a ball."""
+        value: tuple[float, float, float] | None = self._get('to')
+        return value
+
+    @to.setter
+    def to(self, value: Numbers | None) -> None:
+        self._set('to', value)
+
+    @property
+    def radius(self) -> float:
+        """The radius. Number above 0, at most 1000 (cm); must be given."""
+        value: float = self._get('radius')
+        return value
+
+    @radius.setter
+    def radius(self, value: float | None) -> None:
+        self._set('radius', value)
