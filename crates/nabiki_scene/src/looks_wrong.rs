@@ -218,7 +218,7 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
         let seen = format!("{seen}: that is their place in the file, which the head is also from");
         return Some(Advice::new(seen));
     }
-    let Some((Mended { facing, unit, origin }, then)) = seat.mended() else {
+    let Some((Mended { facing, unit, up, origin }, then)) = seat.mended() else {
         // With a given origin no other facing is tried.
         let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };
         let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin fixes that");
@@ -231,8 +231,9 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
     };
     let facing = facing.map(|axis| Fix { key: "hair.facing", value: format!("\"{axis}\"") });
     let unit = unit.map(|value| Fix { key: "hair.unit", value });
+    let up = up.map(|axis| Fix { key: "hair.up", value: format!("\"{axis}\"") });
     let origin = origin.map(|p| Fix { key: "hair.origin", value: vector(p) });
-    Some(Advice { seen, fixes: facing.into_iter().chain(unit).chain(origin).collect() })
+    Some(Advice { seen, fixes: facing.into_iter().chain(unit).chain(up).chain(origin).collect() })
 }
 
 /// What is wrong with hair that lies like this.

@@ -95,6 +95,8 @@ pub(crate) struct Mended {
     pub facing: Option<Axis>,
     /// `hair.unit`, in TOML.
     pub unit: Option<String>,
+    /// `hair.up`.
+    pub up: Option<Axis>,
     /// `hair.origin` (the file's unit).
     pub origin: Option<Vec3>,
 }
@@ -178,6 +180,9 @@ impl Seat<'_> {
         if now.is_good() || self.of_head {
             return None;
         }
+        if let Some(as_the_head) = self.as_the_head() {
+            return Some(as_the_head);
+        }
         let best = self.mended_from(now);
         if self.settings.root != RootEnd::Skin || best.as_ref().is_some_and(|(_, then)| then.is_good()) {
             return best;
@@ -186,6 +191,24 @@ impl Seat<'_> {
         let others = [LikelyRoots::Last, LikelyRoots::Either].into_iter();
         let mut others = others.filter_map(|ends| Seat { ends, ..*self }.mended_from(now));
         others.find(|(_, then)| then.is_good()).or(best)
+    }
+
+    /// In the unit and axes of the head, if it lies well then: exporters leave out what they hold in common, and a USD
+    /// layer without a unit means centimetres.
+    fn as_the_head(&self) -> Option<(Mended, Lie)> {
+        let ImportedHair { unit, up, facing, origin, .. } = self.settings;
+        if unit.is_some() || up.is_some() || facing.is_some() || origin.is_some() {
+            return None;
+        }
+        let head = self.head_placement;
+        let now = self.placement(&Mended::default());
+        let mended = Mended {
+            unit: (head.unit != now.unit).then(|| exactly(head.unit)),
+            up: (head.up != now.up).then_some(head.up),
+            ..Mended::default()
+        };
+        let then = self.lie_at(&self.placement(&mended));
+        then.is_good().then_some((mended, then))
     }
 
     fn mended_from(&self, now: Lie) -> Option<(Mended, Lie)> {
@@ -220,6 +243,7 @@ impl Seat<'_> {
         let unit = mended.unit.as_deref().map(|text| Unit { cm: centimetres(text) });
         let settings = ImportedHair {
             unit: unit.or(self.settings.unit),
+            up: mended.up.or(self.settings.up),
             facing: mended.facing.or(self.settings.facing),
             origin: mended.origin.or(self.settings.origin),
             ..self.settings.clone()
@@ -398,6 +422,12 @@ fn settled(head: &Head, points: &[Vec3], mut shift: Vec3) -> Vec3 {
 pub(crate) fn rounded(p: Vec3, size: f32) -> Vec3 {
     let decimals = (3.0 - size.log10()).ceil().clamp(0.0, 9.0) as usize;
     Vec3::from(p.to_array().map(|x| format!("{x:.decimals$}").parse::<f32>().unwrap_or(x) + 0.0))
+}
+
+/// A unit as a scene names it, or its centimetres.
+fn exactly(unit: Unit) -> String {
+    let name = unit.to_string();
+    if name.contains(' ') { unit.cm.to_string() } else { format!("\"{name}\"") }
 }
 
 /// Centimetres of a unit as written in a scene.

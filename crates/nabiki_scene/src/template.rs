@@ -21,6 +21,23 @@ pub struct Template {
     pub text: String,
     /// The guesses, a line each.
     pub guesses: Vec<String>,
+    head: String,
+    hair: String,
+    shot: Shot,
+}
+
+impl Template {
+    fn new(head: String, hair: String, shot: Shot, guesses: Vec<String>) -> Self {
+        let text = format!("{INTRODUCTION}\n{head}\n{hair}{}", rest(shot));
+        Self { text, guesses, head, hair, shot }
+    }
+
+    /// The same scene with a head that moves: `motion` is the value of `head.motion`, in TOML, and lasts for `frames`.
+    pub(crate) fn moving(&self, motion: &str, frames: usize) -> Self {
+        let head = format!("{}motion = {motion}\n", self.head);
+        let frames = if self.shot.of_hair { frames.min(self.shot.frames) } else { frames };
+        Self::new(head, self.hair.clone(), Shot { frames, ..self.shot }, self.guesses.clone())
+    }
 }
 
 /// The text of a scene that will be saved at the path `scene`. `head` is a mesh, of which `groups` are kept (all if
@@ -51,8 +68,7 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
         }
         _ => format!("[hair]\n{}\n{STYLE}", lines("hair", &["strands", "segments", "segment_length"])),
     };
-    let text = format!("{INTRODUCTION}\n{head_text}\n{hair_text}{}", rest(shot));
-    Ok(Template { text, guesses })
+    Ok(Template::new(head_text, hair_text, shot, guesses))
 }
 
 const INTRODUCTION: &str = "\
@@ -92,7 +108,7 @@ drag = 1.0                  # how far a moving head leaves the hair behind: 1 is
 ";
 
 /// Motion, wind and camera of a new scene.
-fn rest(Shot { frames, rate }: Shot) -> String {
+fn rest(Shot { frames, rate, .. }: Shot) -> String {
     let contact = lines("contact", &["margin", "friction", "static_friction"]);
     let variation = lines("free.variation", &["air", "flutter", "flyaways"]);
     let neighbours: String =
@@ -415,15 +431,17 @@ fn about(points: &[Vec3], placement: &Placement) -> Ellipsoid {
 }
 
 /// Length of a shot, and its frame rate.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Shot {
     frames: usize,
     rate: f64,
+    /// Whether its length is that of moving hair in a file.
+    of_hair: bool,
 }
 
 impl Default for Shot {
     fn default() -> Self {
-        Self { frames: 100, rate: 24.0 }
+        Self { frames: 100, rate: 24.0, of_hair: false }
     }
 }
 
@@ -436,8 +454,9 @@ fn strands_of(file: &Path) -> Result<(Strands, Shot)> {
     }
     // As long as the file's if its hair moves; with two frames, the hair was only moved.
     let frames = opened.frames()? - 1;
-    let frames = if frames > 1 { frames } else { Shot::default().frames };
-    Ok((strands, Shot { frames, rate: opened.frame_rate()? }))
+    let of_hair = frames > 1;
+    let frames = if of_hair { frames } else { Shot::default().frames };
+    Ok((strands, Shot { frames, rate: opened.frame_rate()?, of_hair }))
 }
 
 /// `head`: that of the scene, if it is not built in, and whether it is from the same file.
@@ -464,7 +483,7 @@ fn imported_hair(
     let ends = LikelyRoots::default();
     let seat =
         Seat { head: skin, strands, settings: &settings, head_placement: &head_placement, declared, of_head, ends };
-    let (Mended { facing, unit, origin }, on_skin) =
+    let (Mended { facing, unit, up, origin }, on_skin) =
         seat.mended().map_or((Mended::default(), true), |(mended, then)| (mended, then.on_skin));
     let how = if facing.is_some() { "in which the hair lies on the head" } else { "as most files have it" };
     if let Some(facing) = facing.or(settings.facing) {
@@ -474,6 +493,10 @@ fn imported_hair(
     if let Some(unit) = unit {
         text += &format!("unit = {unit:<20} # guessed\n");
         guesses.push(format!("hair.unit = {unit}, by how the roots spread and lie on the head"));
+    }
+    if let Some(up) = up {
+        text += &format!("up = \"{up}\"                  # guessed\n");
+        guesses.push(format!("hair.up = \"{up}\", as the head, on which the hair lies then"));
     }
     if let Some(origin) = origin.map(vector) {
         text += &format!("origin = {origin}   # guessed: the point of the file at the middle of the head\n");

@@ -271,6 +271,43 @@ fn a_unit_that_a_file_states_is_kept_and_its_up_axis_may_be_another_than_the_hea
     }
 }
 
+/// A layer without metadata means centimetres and y by USD's rule, in which this hair is a hundredth of the head.
+#[test]
+fn hair_of_a_layer_that_states_nothing_has_the_unit_and_axes_of_its_head() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, head, hair] = ["new.toml", "head.usda", "hair.usda"].map(|name| folder.path().join(name));
+    let bust = bust();
+    let place = standing(100.0, Axis::PlusZ, Axis::MinusY);
+    let strings = |items: Vec<String>| items.join(", ");
+    let points = |points: &[Vec3]| {
+        let p = points.iter().map(|&p| place.file_from_head().transform_point3(p));
+        strings(p.map(|p| format!("({}, {}, {})", p.x, p.y, p.z)).collect())
+    };
+    let mesh = &bust.model.head.mesh;
+    let header = "#usda 1.0\n";
+    let body = format!(
+        "def Mesh \"head\" {{\n int[] faceVertexCounts = [{}]\n int[] faceVertexIndices = [{}]\n point3f[] points = [{}]\n}}\n",
+        strings(vec!["3".to_owned(); mesh.triangles.len()]),
+        strings(mesh.triangles.as_flattened().iter().map(u32::to_string).collect()),
+        points(&mesh.positions)
+    );
+    std::fs::write(&head, format!("{header}(\n metersPerUnit = 1\n upAxis = \"Z\"\n)\n{body}")).unwrap();
+    let strands = &bust.groom.hair.strands;
+    let curves = format!(
+        "def BasisCurves \"hair\" {{\n uniform token type = \"linear\"\n int[] curveVertexCounts = [{}]\n \
+         point3f[] points = [{}]\n}}\n",
+        strings(strands.iter().map(|strand| strand.len().to_string()).collect()),
+        points(strands.points())
+    );
+    std::fs::write(&hair, format!("{header}{curves}")).unwrap();
+    let new = template(&scene, Some(&head), &[], Some(&hair)).unwrap();
+    let guessed = |line: &str| new.guesses.iter().any(|said| said.starts_with(line));
+    assert!(guessed("hair.unit = \"m\"") && guessed("hair.up = \"+z\""), "{:?}", new.guesses);
+    let stage = built(&new.text, &scene);
+    assert_eq!(advised(&stage), [], "{}", new.text);
+    assert_eq!(stage.groom.imported.as_ref().unwrap().placement, stage.model.placement);
+}
+
 #[test]
 fn a_mesh_of_no_size_of_a_person_s_is_guessed_by_its_height_or_asked_for() {
     let folder = tempfile::tempdir().unwrap();

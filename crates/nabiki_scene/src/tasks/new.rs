@@ -9,13 +9,12 @@ use nabiki_io::motion::{self, ClipMover};
 use nabiki_io::{exchange, mesh};
 use nabiki_render::settings::{HairLook, Picture};
 
-use crate::advice::{Advice, Fix};
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
 use crate::scene::{HeadSource, ImportedHead, Scene};
 use crate::size::decimal;
-use crate::template::template;
+use crate::template::{Template, template};
 use crate::told::Told;
 use crate::watch::Watch;
 
@@ -58,8 +57,12 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     let mut template = template(path, options.head.as_deref(), &options.groups, options.hair.as_deref())?;
     // For grown hair a few strands suffice; in a file any may be the shortest.
     let tried = if options.hair.is_some() { Shown::All } else { Shown::AtMost(TRIED) };
-    let built = Scene::parse(&template.text, path, &[])?.build(tried)?;
+    let mut built = Scene::parse(&template.text, path, &[])?.build(tried)?;
     built.simulation()?;
+    if let Some(found) = mover(&built)? {
+        (template, built) = moving(&template, &found, path, tried)?;
+        template.guesses.push(format!("head.motion, {}", found.how));
+    }
     if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.groom.hair)) {
         // Equally thick to the tip, or thinner along the whole strand.
         let thins =
@@ -80,53 +83,72 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     let turned = built.groom.imported.as_ref().and_then(|imported| imported.report.turned());
     template.guesses.extend(turned.map(|line| format!("hair.root, by the skin: {line}")));
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
-    built.advice().into_iter().chain(unmoved(&built)?).for_each(|advice| watch.told(Told::Advice(advice)));
+    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);
     Ok(())
 }
 
-/// The head moves in its file; whether hair should follow is for the scene to say.
-fn unmoved(built: &BuiltScene) -> Result<Option<Advice>> {
+/// What moves the head in its own file.
+struct Mover {
+    /// `head.motion`, in TOML.
+    motion: String,
+    /// How it was found.
+    how: String,
+}
+
+fn mover(built: &BuiltScene) -> Result<Option<Mover>> {
     let HeadSource::Imported(head) = &built.scene.head.source else { return Ok(None) };
     let file = built.scene.resolve(&head.mesh);
     if mesh::is_gltf(&file) {
-        return unmoved_by_clip(built, head, &file);
+        return mover_of_clip(built, head, &file);
     }
     let Some(node) = exchange::mover_of_mesh(&file, &head.groups)? else { return Ok(None) };
-    let word = |text: &str| toml::Value::String(text.to_owned());
-    let named = head.mesh.display();
-    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.model.placement.facing);
     // An archive does not declare its unit.
     let unit = if exchange::is_alembic(&head.mesh) {
         format!(", unit_cm = {}", built.model.placement.unit.cm)
     } else {
         String::new()
     };
-    let value = format!("{{ file = {file}, node = {of_node}{unit}, facing = \"{facing}\", bind_at_start = true }}");
-    let seen = format!("{node} moves the head in {named}, but the head does not move here");
-    Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
+    let how = format!("{node}, which moves the head in {}", head.mesh.display());
+    Ok(Some(Mover { motion: motion_of(built, head, &node, &unit), how }))
 }
 
 /// The same for a head in a glTF file: its skull may be carried by a joint of its skin.
-fn unmoved_by_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Result<Option<Advice>> {
+fn mover_of_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Result<Option<Mover>> {
     let place = built.model.placement.head_from_file();
     let is_skull = |p: Vec3| built.model.head.ellipsoid.value(place.transform_point3(p)) <= SKULL;
     let Some(ClipMover { node, clip, clips }) = motion::clip_mover(file, &head.groups, &is_skull)? else {
         return Ok(None);
     };
-    let word = |text: &str| toml::Value::String(text.to_owned());
-    let named = head.mesh.display();
-    let (file, of_node, facing) = (word(&named.to_string()), word(&node), built.model.placement.facing);
     let of_clip = if clip.is_empty() { String::new() } else { format!(", clip = {}", word(&clip)) };
-    let value = format!("{{ file = {file}, node = {of_node}{of_clip}, facing = \"{facing}\", bind_at_start = true }}");
     let more = if clips.len() > MOST_NAMED { ", .." } else { "" };
     let named_clips = clips.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
     let others = match clips.len() {
         0 | 1 => String::new(),
         count => format!(" in {count} clips ({named_clips}{more})"),
     };
-    let seen = format!("{node} moves the head in {named}{others}, but the head does not move here");
-    Ok(Some(Advice { seen, fixes: vec![Fix { key: "head.motion", value }] }))
+    let how = format!("{node}, which moves the head in {}{others}", head.mesh.display());
+    Ok(Some(Mover { motion: motion_of(built, head, &node, &of_clip), how }))
+}
+
+/// The value of `head.motion` for a node of the head's own file, with `more` settings.
+fn motion_of(built: &BuiltScene, head: &ImportedHead, node: &str, more: &str) -> String {
+    let (file, facing) = (word(&head.mesh.display().to_string()), built.model.placement.facing);
+    format!("{{ file = {file}, node = {}{more}, facing = \"{facing}\", bind_at_start = true }}", word(node))
+}
+
+fn word(text: &str) -> toml::Value {
+    toml::Value::String(text.to_owned())
+}
+
+/// The scene with the head's motion, as long as that lasts.
+fn moving(template: &Template, found: &Mover, path: &Path, shown: Shown) -> Result<(Template, BuiltScene)> {
+    let first = template.moving(&found.motion, 1);
+    let frames = Scene::parse(&first.text, path, &[])?.build(shown)?.way.poses.len().saturating_sub(1).max(1);
+    let template = template.moving(&found.motion, frames);
+    let built = Scene::parse(&template.text, path, &[])?.build(shown)?;
+    built.simulation()?;
+    Ok((template, built))
 }
 
 /// Typical width of a file's hair at the roots (cm), and at the tips as a part of that; none if the file has no widths,
