@@ -4,11 +4,11 @@
 
 use std::sync::Arc;
 
-use glam::{Quat, Vec3};
 use nabiki::body::{Body, BodyWay, Contact, skin_of};
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Simulation, Stepper};
 use nabiki::field::UniformField;
 use nabiki::free_form::FreeMotion;
+use nabiki::glam::{Quat, Vec3};
 use nabiki::{Mesh, Pose, SettingError};
 use nabiki_groom::{Growth, Hairline, Style, bust, grow};
 

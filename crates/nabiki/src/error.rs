@@ -6,8 +6,9 @@ use crate::key::Key;
 
 /// A setting that was refused before the simulation started: its name, its value, and what it may be.
 ///
-/// It displays as one line, `motion.time_step = -0.1: must be a number above 0`. A front end adds the file.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+/// It displays as one line, `motion.time_step = -0.1: must be a number above 0`. A front end adds the file. `Debug` is
+/// the same line, because that is what a `main` that returns the error prints.
+#[derive(Clone, PartialEq, thiserror::Error)]
 pub struct SettingError {
     /// The setting's name in a scene file, such as `motion.time_step`.
     pub thing: Key,
@@ -30,6 +31,12 @@ impl fmt::Display for SettingError {
             return write!(f, "{} {}", self.thing, self.remedy);
         }
         write!(f, "{} = {}: {}", self.thing, self.value, self.remedy)
+    }
+}
+
+impl fmt::Debug for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

@@ -6,6 +6,7 @@ use common::{bits, exact, fast, field, free, free_motion, hair, run, run_under, 
 use glam::Vec3;
 use nabiki::Profile;
 use nabiki::body::{Body, Contact};
+use nabiki::dynamics::Simulation;
 use nabiki::free_form::{FreeForm, FreeMotion};
 use nabiki::region::{Members, Region};
 use nabiki_groom::bust;
@@ -130,4 +131,17 @@ fn the_twins_agree_on_regions() {
     let apart = twins_apart(&strands, &dynamics, &wind, 100);
     let most = apart.len() - 1;
     assert!(apart[most - apart.len() / 1000] < 1e-3 && apart[most] < 1e-2, "{:e}", apart[most]);
+}
+
+#[test]
+fn a_refusal_names_the_region_that_multiplies_the_force() {
+    let strands = hair(20, 12);
+    let region = |wind: f32| Region { wind, ..everywhere() };
+    let strong = field(&[(100, [-4000.0, 0.0, 0.0])]);
+    let refused = |wind: f32| {
+        Simulation::new(&strands, &free(with(vec![region(wind)])), &strong).err().map(|refused| refused.to_string())
+    };
+    assert_eq!(refused(1.0), None);
+    let line = refused(10.0).unwrap();
+    assert!(line.contains("lower free.regions[0].wind = 10, which multiplies the force there"), "{line}");
 }

@@ -270,12 +270,12 @@ fn strands_that_cannot_be_moved_are_refused_by_number() {
         let mut strands = hair(3, 18);
         strands.push(strand.iter().copied());
         let error = refusal(&strands, &gust(), &wind());
-        assert_eq!(error.thing, "hair strand 3");
+        assert!(error.to_string().starts_with("hair strand 3"), "{error}");
         assert!(error.to_string().contains(what), "{error}");
     };
     refuse(&[Vec3::ZERO], "but has 1");
     refuse(&[Vec3::ZERO, Vec3::X, Vec3::X], "segment 2 of length 0");
-    refuse(&[Vec3::ZERO, Vec3::NAN], "finite");
+    refuse(&[Vec3::ZERO, Vec3::NAN], ", point 1 = [NaN, NaN, NaN]: every coordinate must be a finite");
     refuse(&[Vec3::ZERO, Vec3::INFINITY], "finite");
     assert_eq!(refusal(&Strands::default(), &gust(), &wind()).thing, "hair");
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use glam::Vec3;
 use nabiki::Profile;
 use nabiki::dynamics::{Dynamics, Form, gain, period, push};
+use nabiki::field::Ease;
 use nabiki::free_form::FreeForm;
 use nabiki_io::hair::ImportReport;
 use nabiki_io::screen::OneLine;
@@ -252,6 +253,8 @@ pub struct SwingTable {
     pub tied: bool,
     /// Number of steps per frame, in the free form.
     pub steps: Option<u32>,
+    /// Whether the wind changes gradually. A row then has the force in the middle of its interval.
+    pub eased: bool,
     /// One row per interval of `[[force]]`.
     pub rows: Vec<SwingRow>,
     /// The swing under the bound of all fields, where that exceeds the force of every row. The force is taken to pull
@@ -370,7 +373,8 @@ impl SwingTable {
         let strongest = built.forces.field.strongest();
         let exceeds = !field.is_the_papers() && rows.iter().all(|row| f64::from(strongest) > row.force);
         let at_most = exceeds.then(|| row([1, last], strongest, (strongest + weight).into()));
-        Self { length, tied, steps: form.map(FreeForm::steps), rows, at_most }
+        let eased = field.wind.ease != Ease::Stepped;
+        Self { length, tied, steps: form.map(FreeForm::steps), eased, rows, at_most }
     }
 }
 
@@ -383,6 +387,9 @@ impl fmt::Display for SwingTable {
             None => write!(f, ": at its {root}, middle, tip")?,
             Some(1) => write!(f, "; a frame is one step")?,
             Some(steps) => write!(f, "; a frame is {steps} steps")?,
+        }
+        if self.eased && !self.rows.is_empty() {
+            write!(f, "; |F| in the middle of an interval")?;
         }
         let told = self.rows.iter().map(|row| ("=", row)).chain(self.at_most.iter().map(|row| ("at most", row)));
         for (sign, SwingRow { frames: [first, last], force, swing }) in told {

@@ -102,8 +102,9 @@ pub(super) fn segment_shapes(
             format!("needs at least 2 points, but has {}: remove it", strand.len()),
         ));
     }
-    if let Some(p) = strand.iter().find(|p| !p.is_finite()) {
-        return Err(SettingError::new(thing(), p, "every coordinate must be a finite number"));
+    if let Some(i) = strand.iter().position(|p| !p.is_finite()) {
+        let point = format!("{}, point {i}", thing());
+        return Err(SettingError::new(point, strand[i], "every coordinate must be a finite number"));
     }
     let lengths: Vec<f64> = strand.windows(2).map(|w| w[0].as_dvec3().distance(w[1].as_dvec3())).collect();
     if let Some(i) = lengths.iter().position(|&length| length as f32 <= 0.0) {

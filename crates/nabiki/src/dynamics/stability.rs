@@ -21,6 +21,15 @@ impl Form {
         }
     }
 
+    /// The setting that multiplies the field's force on a strand most, as text, if one does; `root` is that of the strand.
+    fn multiplies(&self, root: Vec3) -> Option<String> {
+        let Self::Free(free) = self else { return None };
+        let regions = free.form.regions.iter().enumerate();
+        let felt = regions.filter(|&(i, region)| region.wind > 1.0 && free.weight_in(i, root) > 0.0);
+        let (i, most) = felt.max_by(|a, b| a.1.wind.total_cmp(&b.1.wind))?;
+        Some(format!("free.regions[{i}].wind = {}", most.wind))
+    }
+
     /// Every segment of strand number `s`.
     fn shapes(&self, dynamics: &Dynamics, strand: &[Vec3], s: usize) -> Result<Vec<SegmentShape>, SettingError> {
         match self {
@@ -120,6 +129,8 @@ struct Worst {
     reached: f64,
     /// The strand.
     place: String,
+    /// What multiplies the force there.
+    multiplied: Option<String>,
     /// All that pulls there, the field's force last.
     parts: Vec<f64>,
     /// With all others unchanged, everywhere: the factor by which each pull may grow, and the largest force.
@@ -129,7 +140,7 @@ struct Worst {
 impl Worst {
     fn of(hair: &[Named<'_>], dynamics: &Dynamics, pulls: &[Box<dyn Pull + '_>], force: f64) -> Self {
         let last = pulls.len();
-        let (mut reached, mut place) = (0.0, String::new());
+        let (mut reached, mut place, mut multiplied) = (0.0, String::new(), None);
         let (mut worst, mut rooms) = (vec![0.0; last + 1], vec![f64::INFINITY; last + 1]);
         let parts: Vec<f64> = pulls.iter().map(|pull| pull.strongest()).chain([force]).collect();
         for named in hair {
@@ -145,20 +156,24 @@ impl Worst {
                     let all = shape.gain * parts.iter().sum::<f64>();
                     if all > reached {
                         (reached, place) = (all, named.strand(s, &shapes));
+                        multiplied = dynamics.form.multiplies(strand[0]);
                         worst.copy_from_slice(&parts);
                     }
                 }
             }
         }
-        Self { reached, place, parts: worst, rooms }
+        Self { reached, place, multiplied, parts: worst, rooms }
     }
 }
 
 /// Why movable hair is unstable under a field: the largest pull where hair is least stable, and how much of it would
 /// hold beside all others.
 pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Field) -> SettingError {
+    if field.strongest().is_nan() {
+        return SettingError::new("force", field.strongest(), "must be a number");
+    }
     let (pulls, strongest) = (dynamics.form.pulls(), f64::from(field.strongest()));
-    let Worst { reached, place, parts, rooms } = Worst::of(hair, dynamics, &pulls, strongest);
+    let Worst { reached, place, multiplied, parts, rooms } = Worst::of(hair, dynamics, &pulls, strongest);
     let terms: Vec<&str> = pulls.iter().map(|pull| pull.name().term).collect();
     let sum = if terms.is_empty() { "|F|".to_owned() } else { format!("(|F| + {})", terms.join(" + ")) };
     let (gain, finer) = match dynamics.form {
@@ -167,11 +182,12 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     };
     let ways =
         format!("{finer}lower motion.time_step, or set motion.inertia_length_floor so that neighbours hold short hair");
+    let lower = multiplied.map_or_else(String::new, |by| format!("lower {by}, which multiplies the force there, "));
     let refused = |thing: &str, value: String, keep: String| {
         let reached = if reached < 1e6 { format!("{reached:.3}") } else { format!("{reached:.1e}") };
         let metres = in_metres(hair, dynamics);
         let remedy = format!(
-            "unstable: {gain} {sum} reaches {reached} at {place}, but must stay below 4; {keep}, {ways}{metres}"
+            "unstable: {gain} {sum} reaches {reached} at {place}, but must stay below 4; {keep}, {lower}{ways}{metres}"
         );
         SettingError::new(thing, value, remedy)
     };

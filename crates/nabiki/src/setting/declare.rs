@@ -47,7 +47,14 @@ macro_rules! settings {
         $(#[doc = $doc])*
         #[derive(Clone, Debug, PartialEq, ::serde::Serialize $($(, $derive)*)?)]
         $vis struct $name {
-            $($(#[doc = $help])* $(#[serde($($serde)*)])? $field_vis $key: $type,)*
+            $(
+                $(#[doc = $help])*
+                #[doc = concat!(
+                    "\n\n" $(, "Unit: ", $unit, ". ")? $(, "Above ", stringify!($above), ". ")?
+                    $(, "At least ", stringify!($least), ". ")? $(, "At most ", stringify!($most), ".")?
+                )]
+                $(#[serde($($serde)*)])? $field_vis $key: $type,
+            )*
         }
 
         impl ::std::default::Default for $name {

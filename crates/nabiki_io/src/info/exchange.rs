@@ -32,9 +32,13 @@ pub struct ExchangeInfo {
     pub frames: usize,
     /// Frames per second, if anything moves.
     pub frame_rate: Option<f64>,
-    /// The file's unit in centimetres, if declared.
+    /// The file's unit in centimetres: the file's own, or its format's default; `None` if neither is known.
     pub unit_cm: Option<f32>,
-    /// The up axis, if declared.
+    /// Whether the unit is in the file, and not the format's default.
+    pub states_unit: bool,
+    /// Whether the up axis is in the file, and not the format's default.
+    pub states_up: bool,
+    /// The up axis, likewise.
     pub up: Option<String>,
     /// A guess at what the file does not declare, from the hair or else the mesh.
     #[serde(flatten)]
@@ -132,6 +136,8 @@ impl ExchangeInfo {
             frames: contents.times.len().max(1),
             frame_rate: moves.then_some(contents.frame_rate),
             unit_cm: declared.unit.map(|unit| unit.cm),
+            states_unit: contents.meters_per_unit.is_some(),
+            states_up: contents.z_up.is_some(),
             up: declared.up.map(|axis| axis.to_string()),
             guess,
         })
@@ -163,14 +169,18 @@ impl fmt::Display for ExchangeInfo {
         if self.prims.len() > MOST_LISTED {
             writeln!(f, "and {} more", self.prims.len() - MOST_LISTED)?;
         }
-        match self.unit_cm {
-            Some(cm) => write!(f, "the file says: unit {}", Unit { cm })?,
-            None => write!(f, "the file says: no unit")?,
+        let unit = self.unit_cm.map(|cm| (format!("unit {}", Unit { cm }), self.states_unit));
+        let up = self.up.as_ref().map(|up| (format!("up {up}"), self.states_up));
+        let (stated, assumed): (Vec<_>, Vec<_>) = unit.into_iter().chain(up).partition(|(_, stated)| *stated);
+        let listed = |all: &[(String, bool)]| all.iter().map(|(text, _)| &text[..]).collect::<Vec<_>>().join(", ");
+        match &stated[..] {
+            [] => write!(f, "the file says no unit and no up axis")?,
+            stated => write!(f, "the file says: {}", listed(stated))?,
         }
-        match &self.up {
-            Some(up) => write!(f, ", up {up}; facing: unknown")?,
-            None => write!(f, "; up, facing: unknown")?,
+        if !assumed.is_empty() {
+            write!(f, "; by the format's default: {}", listed(&assumed))?;
         }
+        write!(f, "; facing: unknown")?;
         match self.guess {
             Some(Guess { likely_unit: Some(unit), .. }) => write!(f, "\nunit: {unit} (a guess)"),
             _ => Ok(()),
