@@ -81,7 +81,9 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
         }
     }
     for body in &scene.bodies {
-        std::fs::write(scene.resolve(&body.mesh), TETRAHEDRON).unwrap();
+        if body.capsule.is_none() {
+            std::fs::write(scene.resolve(&body.mesh), TETRAHEDRON).unwrap();
+        }
         if let Some(motion) = &body.motion {
             std::fs::write(scene.resolve(&motion.file), table()).unwrap();
         }

@@ -188,7 +188,7 @@ fn strengths_that_are_none_are_refused_where_they_stand() {
 fn bodies_that_are_none_are_refused() {
     assert_eq!(
         refused("mesh = \"solid.obj\"", "margin = 0.2"),
-        "free.toml:11: body[0].mesh is missing: give the file of its mesh"
+        "free.toml:11: body[0].mesh is missing: give the file of its mesh, or a capsule"
     );
     assert_eq!(
         refused("mesh = \"solid.obj\"", "mesh = \"solid.obj\"\nwith_head = true\nmotion = { file = \"short.csv\" }"),
@@ -208,6 +208,15 @@ fn bodies_that_are_none_are_refused() {
         ),
         "free.toml:13: body[0].motion = 1 frame: ends before frame 3, the last (frames count from 0): lower motion.frames, or give a longer motion",
         "a motion of one pose is not a body that stands still"
+    );
+    let capsule = "capsule = { from = [0, 0, 0], radius = 1 }";
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", &format!("mesh = \"solid.obj\"\n{capsule}")),
+        "free.toml:12: body[0].mesh = solid.obj: a body is a mesh or a capsule: remove one of the two"
+    );
+    assert_eq!(
+        refused("mesh = \"solid.obj\"", &format!("{capsule}\nunit = \"m\"")),
+        "free.toml:13: body[0].unit is for a mesh, and this body is a capsule: remove it"
     );
     assert_eq!(
         refused("solid.obj", "sheet.obj"),

@@ -36,7 +36,7 @@ const JUMP: f64 = 6.4;
 /// Most stops by which any patch of the view is brighter or darker than in the finished picture, and all in the mean.
 /// What is left is where a thousand strands bundle otherwise than all of them, most where a tail fans out in the wind (0.26 in the mean),
 /// and shadows finer than a cell of the volume.
-const WORST_STOPS: f32 = 2.45;
+const WORST_STOPS: f32 = 2.6;
 const MEAN_STOPS: f32 = 0.3;
 
 /// At rest and in the wind.
