@@ -9,6 +9,7 @@ use nabiki_io::motion::{self, ClipMover};
 use nabiki_io::{exchange, mesh};
 use nabiki_render::settings::{HairLook, Picture};
 
+use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::error::{Error, Result};
 use crate::place;
@@ -59,9 +60,15 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     let tried = if options.hair.is_some() { Shown::All } else { Shown::AtMost(TRIED) };
     let mut built = Scene::parse(&template.text, path, &[])?.build(tried)?;
     built.simulation()?;
-    if let Some(found) = mover(&built)? {
-        (template, built) = moving(&template, &found, path, tried)?;
-        template.guesses.push(format!("head.motion, {}", found.how));
+    let mut still = None;
+    if let Some(Mover { motion, how }) = mover(&built)? {
+        match moving(&template, &motion, path, tried) {
+            Ok(moves) => {
+                (template, built) = moves;
+                template.guesses.push(format!("head.motion, {how}"));
+            }
+            Err(e) => still = Some(Advice::new(format!("the head stays still here, without {how}: {e}"))),
+        }
     }
     if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.groom.hair)) {
         // Equally thick to the tip, or thinner along the whole strand.
@@ -83,7 +90,7 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     let turned = built.groom.imported.as_ref().and_then(|imported| imported.report.turned());
     template.guesses.extend(turned.map(|line| format!("hair.root, by the skin: {line}")));
     template.guesses.into_iter().for_each(|guess| watch.told(Told::Guessed(guess)));
-    built.advice().into_iter().for_each(|advice| watch.told(Told::Advice(advice)));
+    built.advice().into_iter().chain(still).for_each(|advice| watch.told(Told::Advice(advice)));
     super::wrote(vec![path.to_owned()], watch);
     Ok(())
 }
@@ -142,10 +149,10 @@ fn word(text: &str) -> toml::Value {
 }
 
 /// The scene with the head's motion, as long as that lasts.
-fn moving(template: &Template, found: &Mover, path: &Path, shown: Shown) -> Result<(Template, BuiltScene)> {
-    let first = template.moving(&found.motion, 1);
+fn moving(template: &Template, motion: &str, path: &Path, shown: Shown) -> Result<(Template, BuiltScene)> {
+    let first = template.moving(motion, 1);
     let frames = Scene::parse(&first.text, path, &[])?.build(shown)?.way.poses.len().saturating_sub(1).max(1);
-    let template = template.moving(&found.motion, frames);
+    let template = template.moving(motion, frames);
     let built = Scene::parse(&template.text, path, &[])?.build(shown)?;
     built.simulation()?;
     Ok((template, built))
