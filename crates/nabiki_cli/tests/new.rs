@@ -127,7 +127,7 @@ fn a_head_that_moves_in_its_file_moves_in_the_new_scene_for_as_long() {
     let (header, prims) = stage.split_once("\ndef ").unwrap();
     let moves = "double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 30: (9, 0, 0) }\n\
                  uniform token[] xformOpOrder = [\"xformOp:translate\"]";
-    let header = header.replace("defaultPrim", "doc");
+    let header = header.replace("defaultPrim", "doc").replace("timeCodesPerSecond = 24", "timeCodesPerSecond = 30");
     let moving = format!("{header}\ndef Xform \"body\" {{\n{moves}\ndef {prims}\n}}\n");
     std::fs::write(folder.path().join("moving.usda"), moving).unwrap();
     let new = nabiki(folder.path(), &["new", "mine.toml", "--head", "moving.usda"]);
@@ -135,7 +135,7 @@ fn a_head_that_moves_in_its_file_moves_in_the_new_scene_for_as_long() {
     let said = text(&new.stdout);
     assert!(said.contains("guessed head.motion, /body, which moves the head in moving.usda"), "{said}");
     let scene = std::fs::read_to_string(folder.path().join("mine.toml")).unwrap();
-    assert!(scene.contains("\nframes = 30\n"), "{scene}");
+    assert!(scene.contains("\nframes = 30\nframe_rate = 30\n"), "{scene}");
     let run = nabiki(folder.path(), &["simulate", "mine.toml", "--strands", "30", "-o", "m.nabiki"]);
     let said = text(&run.stdout);
     assert!(run.status.success() && said.contains("object /body, 31 samples"), "{said}");

@@ -114,6 +114,17 @@ pub fn frames(path: &Path) -> Result<usize> {
     Ok(Opened::new(path)?.ask(|r| r.contents())?.times.len().max(1))
 }
 
+/// Frames per second of a layer or archive; `None` in other formats.
+///
+/// # Errors
+/// If the file is invalid.
+pub fn frame_rate(path: &Path) -> Result<Option<f64>> {
+    if !(is_usd(path) || is_alembic(path)) {
+        return Ok(None);
+    }
+    Ok(Some(Opened::new(path)?.ask(|r| r.contents())?.frame_rate))
+}
+
 /// Reads the meshes, in the file's own unit and axes: those that show, or all where none does. `groups`: names or whole
 /// paths of meshes, or of what they stand below; all meshes when empty. With what of the meshes is left out or not
 /// obeyed, a phrase each.

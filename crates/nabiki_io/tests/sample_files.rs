@@ -299,7 +299,11 @@ fn what_a_layer_states_is_not_guessed_and_the_rest_is_guessed_once() {
         assert!(found["hair"]["strands"] == 3 && found["hair"].get("likely_unit").is_none(), "{name}: {found}");
         let text = info(&file(name)).unwrap().to_string();
         assert_eq!(text.matches("guess").count(), usize::from(guess.is_some()), "{text}");
-        assert!(unit.is_none() || text.contains("the file says: unit m, up +y"), "{text}");
+        let said = match unit {
+            Some(_) => "the file says: unit m, up +y; facing: unknown",
+            None => "the file says no unit and no up axis; by the format's default: up +y; facing: unknown",
+        };
+        assert!(text.contains(said), "{text}");
     }
     assert!(json("groom.usda")["mesh"].get("likely_unit").is_none());
     assert_eq!(json("groom.usda")["prims"][1]["path"], "/groom/hair");

@@ -218,7 +218,7 @@ fn of_seat(seat: &Seat<'_>) -> Option<Advice> {
         let seen = format!("{seen}: that is their place in the file, which the head is also from");
         return Some(Advice::new(seen));
     }
-    let Some((Mended { facing, unit, up, origin }, then)) = seat.mended() else {
+    let Some((Mended { facing, unit, up, origin, .. }, then)) = seat.mended() else {
         // With a given origin no other facing is tried.
         let sought = if seat.has_origin() { "hair.unit" } else { "hair.facing, hair.unit" };
         let seen = format!("{seen}: it was made for another head, and no other {sought} or hair.origin fixes that");

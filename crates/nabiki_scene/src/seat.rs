@@ -99,6 +99,8 @@ pub(crate) struct Mended {
     pub up: Option<Axis>,
     /// `hair.origin` (the file's unit).
     pub origin: Option<Vec3>,
+    /// Whether unit and axes are those of the head.
+    pub as_the_head: bool,
 }
 
 /// What the hair's file declares; for the head's own file, only what the head has.
@@ -193,8 +195,8 @@ impl Seat<'_> {
         others.find(|(_, then)| then.is_good()).or(best)
     }
 
-    /// In the unit and axes of the head, if it lies well then: exporters leave out what they hold in common, and a USD
-    /// layer without a unit means centimetres.
+    /// In the unit and axes of the head, if it lies well then, whatever its own file says: exporters leave them out of one
+    /// of two files, and a USD layer without a unit means centimetres.
     fn as_the_head(&self) -> Option<(Mended, Lie)> {
         let ImportedHair { unit, up, facing, origin, .. } = self.settings;
         if unit.is_some() || up.is_some() || facing.is_some() || origin.is_some() {
@@ -205,6 +207,7 @@ impl Seat<'_> {
         let mended = Mended {
             unit: (head.unit != now.unit).then(|| exactly(head.unit)),
             up: (head.up != now.up).then_some(head.up),
+            as_the_head: true,
             ..Mended::default()
         };
         let then = self.lie_at(&self.placement(&mended));

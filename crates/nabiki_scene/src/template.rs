@@ -6,7 +6,7 @@ use glam::Vec3;
 use nabiki::setting::plain;
 use nabiki::{Ellipsoid, Head, Mesh, Strands};
 use nabiki_groom::bust;
-use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, declared_space, info, mesh};
+use nabiki_io::{Axis, DeclaredSpace, Error, GroomFile, Placement, Result, Unit, declared_space, exchange, info, mesh};
 
 use crate::built::holds_scenes;
 use crate::scene::ImportedHair;
@@ -48,7 +48,11 @@ impl Template {
 pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Option<&Path>) -> Result<Template> {
     let mut guesses = Vec::new();
     let (strands, shot) = hair.map(strands_of).transpose()?.unzip();
-    let shot = shot.unwrap_or_default();
+    let mut shot = shot.unwrap_or_default();
+    let of_hair = hair.is_some_and(|file| exchange::is_usd(file) || exchange::is_alembic(file));
+    if let Some(rate) = head.filter(|_| !of_hair).map(exchange::frame_rate).transpose()?.flatten() {
+        shot.rate = rate;
+    }
     let (of_head, head_text) = match head {
         None => (
             None,
@@ -131,7 +135,7 @@ inertia_length_floor = 14.0   # shorter hair swings like hair of this length (cm
 # How locks differ, so that they part in the wind. Without this table the hair moves as one sheet.
 [free.variation]
 {variation}
-# Hair keeps out of the head, and of each [[body]] with a mesh and a motion or with_head = true.
+# Hair keeps out of the head and of each [[body]]: a mesh or a capsule that stands still, has a motion, or is worn.
 [contact]
 {contact}
 # Hair against hair. Remove the # to turn it on:
@@ -459,6 +463,9 @@ fn strands_of(file: &Path) -> Result<(Strands, Shot)> {
     Ok((strands, Shot { frames, rate: opened.frame_rate()?, of_hair }))
 }
 
+/// Why hair has the unit or axis of its head.
+const AS_THE_HEAD: &str = "the head's, with which the hair lies on it";
+
 /// `head`: that of the scene, if it is not built in, and whether it is from the same file.
 fn imported_hair(
     scene: &Path,
@@ -483,7 +490,7 @@ fn imported_hair(
     let ends = LikelyRoots::default();
     let seat =
         Seat { head: skin, strands, settings: &settings, head_placement: &head_placement, declared, of_head, ends };
-    let (Mended { facing, unit, up, origin }, on_skin) =
+    let (Mended { facing, unit, up, origin, as_the_head }, on_skin) =
         seat.mended().map_or((Mended::default(), true), |(mended, then)| (mended, then.on_skin));
     let how = if facing.is_some() { "in which the hair lies on the head" } else { "as most files have it" };
     if let Some(facing) = facing.or(settings.facing) {
@@ -492,11 +499,12 @@ fn imported_hair(
     }
     if let Some(unit) = unit {
         text += &format!("unit = {unit:<20} # guessed\n");
-        guesses.push(format!("hair.unit = {unit}, by how the roots spread and lie on the head"));
+        let how = if as_the_head { AS_THE_HEAD } else { "by how the roots spread and lie on the head" };
+        guesses.push(format!("hair.unit = {unit}, {how}"));
     }
     if let Some(up) = up {
         text += &format!("up = \"{up}\"                  # guessed\n");
-        guesses.push(format!("hair.up = \"{up}\", as the head, on which the hair lies then"));
+        guesses.push(format!("hair.up = \"{up}\", {AS_THE_HEAD}"));
     }
     if let Some(origin) = origin.map(vector) {
         text += &format!("origin = {origin}   # guessed: the point of the file at the middle of the head\n");

@@ -182,12 +182,15 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
     };
     let ways =
         format!("{finer}lower motion.time_step, or set motion.inertia_length_floor so that neighbours hold short hair");
-    let lower = multiplied.map_or_else(String::new, |by| format!("lower {by}, which multiplies the force there, "));
+    let ways = match multiplied {
+        Some(by) => format!("or lower {by}, which multiplies the force there; otherwise {ways}"),
+        None => ways,
+    };
     let refused = |thing: &str, value: String, keep: String| {
         let reached = if reached < 1e6 { format!("{reached:.3}") } else { format!("{reached:.1e}") };
         let metres = in_metres(hair, dynamics);
         let remedy = format!(
-            "unstable: {gain} {sum} reaches {reached} at {place}, but must stay below 4; {keep}, {lower}{ways}{metres}"
+            "unstable: {gain} {sum} reaches {reached} at {place}, but must stay below 4; {keep}, {ways}{metres}"
         );
         SettingError::new(thing, value, remedy)
     };
@@ -218,7 +221,7 @@ pub(super) fn unstable(hair: &[Named<'_>], dynamics: &Dynamics, field: &dyn Fiel
                 .filter(|other| *other != thing)
                 .chain((strongest > 0.0).then_some("the forces"))
                 .collect();
-            let keep = format!("lowering it alone is not enough: also lower {}", others.join(", "));
+            let keep = format!("lowering it alone is not enough: also lower {}", others.join(" and "));
             refused(thing, value.to_string(), keep)
         }
     }

@@ -49,10 +49,7 @@ macro_rules! settings {
         $vis struct $name {
             $(
                 $(#[doc = $help])*
-                #[doc = concat!(
-                    "\n\n" $(, "Unit: ", $unit, ". ")? $(, "Above ", stringify!($above), ". ")?
-                    $(, "At least ", stringify!($least), ". ")? $(, "At most ", stringify!($most), ".")?
-                )]
+                $(#[doc = concat!("\n\nUnit: ", $unit, ".")])?
                 $(#[serde($($serde)*)])? $field_vis $key: $type,
             )*
         }

@@ -9,7 +9,7 @@ use super::hair::HairInfo;
 use super::measure::Guess;
 use super::mesh::MeshInfo;
 use crate::error::Result;
-use crate::exchange::Opened;
+use crate::exchange::{self, Opened};
 use crate::screen::{OneLine, list};
 use crate::short::Short;
 use crate::unit::Unit;
@@ -32,14 +32,14 @@ pub struct ExchangeInfo {
     pub frames: usize,
     /// Frames per second, if anything moves.
     pub frame_rate: Option<f64>,
-    /// The file's unit in centimetres: the file's own, or its format's default; `None` if neither is known.
+    /// The unit in centimetres: the file's own, or its format's default; `None` if neither is known.
     pub unit_cm: Option<f32>,
-    /// Whether the unit is in the file, and not the format's default.
+    /// Whether the file itself states the unit.
     pub states_unit: bool,
-    /// Whether the up axis is in the file, and not the format's default.
-    pub states_up: bool,
-    /// The up axis, likewise.
+    /// The up axis: the file's own, or its format's default; `None` if neither is known.
     pub up: Option<String>,
+    /// Whether the file itself states the up axis.
+    pub states_up: bool,
     /// A guess at what the file does not declare, from the hair or else the mesh.
     #[serde(flatten)]
     pub guess: Option<Guess>,
@@ -137,7 +137,8 @@ impl ExchangeInfo {
             frame_rate: moves.then_some(contents.frame_rate),
             unit_cm: declared.unit.map(|unit| unit.cm),
             states_unit: contents.meters_per_unit.is_some(),
-            states_up: contents.z_up.is_some(),
+            // An archive states no axis: the reader has that of the format.
+            states_up: contents.z_up.is_some() && !exchange::is_alembic(path),
             up: declared.up.map(|axis| axis.to_string()),
             guess,
         })

@@ -13,7 +13,7 @@ use nabiki_render::settings::BodyLook;
 
 use super::head::check_placement;
 
-/// Farthest place of a capsule from the middle of its body (cm).
+/// Farthest coordinate of a capsule in its body's space (cm).
 const FARTHEST: f64 = 1000.0;
 
 settings! {
@@ -34,7 +34,7 @@ settings! {
     pub struct BodySettings where can_be_loaded {
         /// The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required without `capsule`.
         pub mesh: PathBuf = PathBuf::new() => "Mesh";
-        /// A capsule or ball in place of a mesh, which needs no file: an arm, a shoulder, a finger.
+        /// A capsule or ball instead of a mesh: an arm, a shoulder, a finger. It needs no file.
         pub capsule: Option<CapsuleSettings> = None => "Capsule", open "the mesh";
         /// Groups, objects or nodes of the file to use. Uses all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";
@@ -95,7 +95,7 @@ impl BodySettings {
         self.capsule.map(of).transpose()
     }
 
-    /// Refuses what places a file, where there is none.
+    /// Refuses settings that only a mesh has, for a capsule.
     fn places_no_file(&self, at: &Place) -> Result<(), SettingError> {
         let given = [
             ("groups", !self.groups.is_empty()),

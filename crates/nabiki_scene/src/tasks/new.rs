@@ -62,12 +62,14 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     built.simulation()?;
     let mut still = None;
     if let Some(Mover { motion, how }) = mover(&built)? {
-        match moving(&template, &motion, path, tried) {
+        match moving(&template, &built, &motion, path, tried) {
             Ok(moves) => {
                 (template, built) = moves;
                 template.guesses.push(format!("head.motion, {how}"));
             }
-            Err(e) => still = Some(Advice::new(format!("the head stays still here, without {how}: {e}"))),
+            Err(e) => {
+                still = Some(Advice::new(format!("the head does not move here, because {how}, cannot be used: {e}")))
+            }
         }
     }
     if let Some([root, tip]) = options.hair.as_ref().and_then(|_| thickness(&built.groom.hair)) {
@@ -148,12 +150,17 @@ fn word(text: &str) -> toml::Value {
     toml::Value::String(text.to_owned())
 }
 
-/// The scene with the head's motion, as long as that lasts.
-fn moving(template: &Template, motion: &str, path: &Path, shown: Shown) -> Result<(Template, BuiltScene)> {
-    let first = template.moving(motion, 1);
-    let frames = Scene::parse(&first.text, path, &[])?.build(shown)?.way.poses.len().saturating_sub(1).max(1);
-    let template = template.moving(motion, frames);
-    let built = Scene::parse(&template.text, path, &[])?.build(shown)?;
+/// The scene with the head's motion, as long as that lasts. `still`: built without it.
+fn moving(
+    template: &Template,
+    still: &BuiltScene,
+    motion: &str,
+    path: &Path,
+    shown: Shown,
+) -> Result<(Template, BuiltScene)> {
+    let first = still.changed_to(Scene::parse(&template.moving(motion, 1).text, path, &[])?, shown)?;
+    let template = template.moving(motion, first.way.poses.len().saturating_sub(1).max(1));
+    let built = first.changed_to(Scene::parse(&template.text, path, &[])?, shown)?;
     built.simulation()?;
     Ok((template, built))
 }

@@ -306,7 +306,7 @@ class BodySettings(Table):
 
     @property
     def capsule(self) -> CapsuleSettings:
-        """A capsule or ball in place of a mesh, which needs no file: an arm, a shoulder, a finger."""
+        """A capsule or ball instead of a mesh: an arm, a shoulder, a finger. It needs no file."""
         return CapsuleSettings(self._scene, self._key_of('capsule'))
 
     @capsule.setter

@@ -15,8 +15,8 @@ use crate::scalar::{Scalar, Turn, Vector};
 pub const AFTER: f64 = 0.4;
 pub const BEFORE: f64 = 0.25;
 
-/// `AFTER` of a pressed strand, which has no `BEFORE`. Joints and a body throw it to and fro in every step, and such swings are
-/// to die at once: with the shares of free hair, a hand at the jaw whips strands across the face.
+/// `AFTER` of a pressed strand, which has no `BEFORE`. Joints and a body throw it to and fro in every step, and such swings must
+/// die at once: with the shares of free hair, a hand at the jaw whips strands across the face.
 pub const AFTER_PRESSED: f64 = 0.6;
 
 /// How strongly the joints of a bent strand, times the squared sine of the bend, resist a turn in the implicit step, in
