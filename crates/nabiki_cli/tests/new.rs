@@ -127,7 +127,7 @@ fn a_head_that_moves_in_its_file_moves_in_the_new_scene_for_as_long() {
     let (header, prims) = stage.split_once("\ndef ").unwrap();
     let moves = "double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 30: (9, 0, 0) }\n\
                  uniform token[] xformOpOrder = [\"xformOp:translate\"]";
-    let header = header.replace("defaultPrim", "doc").replace("timeCodesPerSecond = 24", "timeCodesPerSecond = 30");
+    let header = header.replace("defaultPrim", "doc").replace("PerSecond = 24", "PerSecond = 30");
     let moving = format!("{header}\ndef Xform \"body\" {{\n{moves}\ndef {prims}\n}}\n");
     std::fs::write(folder.path().join("moving.usda"), moving).unwrap();
     let new = nabiki(folder.path(), &["new", "mine.toml", "--head", "moving.usda"]);
