@@ -121,8 +121,11 @@ def test_sintels_groom_moves_as_the_command_moves_it(command, shared):
     commands.write_hair(command.folder / "hair.hair", points, offsets)
     known, apart = commands.rounding(command, toml, command.folder / "hair.hair", "--strands", 300)
     known = known @ commands.WAY / 100 + origin
-    left = near(found, known, 8 * apart / 100, "Sintel")
-    # Most of the hair is not at a kink of the skin, and hardly feels a rounding.
+    # A strand at a kink of the skin falls to either side of it by a rounding. Most of the hair is not, and hardly feels one.
+    each = np.abs(found - known).reshape(len(found), -1, int(offsets[1] - offsets[0]), 3).max(axis=(0, 2, 3))
+    parted = np.count_nonzero(each > 8 * apart / 100 + 8 * EPS * np.abs(known).max())
+    assert 100 * parted <= len(each), f"Sintel: {parted} of {len(each)} strands part, the worst by {each.max():.3g} m"
+    left = np.sort(each)[len(each) - 1 - parted]
     most = np.quantile(np.abs(found - known), 0.99)
     assert most < 1e-5, f"99 of 100 points: {most:.2g} m apart"
     # With the very files that the extension makes the command's points are the same but for their own roundings.
