@@ -1,5 +1,7 @@
 //! A new scene for your own files, from their declarations or, failing that, their geometry.
 
+mod roots;
+
 use std::path::Path;
 
 use glam::Vec3;
@@ -12,7 +14,8 @@ use crate::built::holds_scenes;
 use crate::scene::ImportedHair;
 use crate::schema;
 use crate::seat::{self, LikelyRoots, Mended, Seat, centimetres};
-use crate::size::{HALF_AXIS, decimal, mean_half_axis, middle, named_unit, spread, vector};
+use crate::size::{HALF_AXIS, decimal, mean_half_axis, middle, named_unit, vector};
+use roots::{grow_on, likely_roots};
 
 /// A scene to start from.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,8 +52,8 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
     let mut guesses = Vec::new();
     let (strands, shot) = hair.map(strands_of).transpose()?.unzip();
     let mut shot = shot.unwrap_or_default();
-    let of_hair = hair.is_some_and(|file| exchange::is_usd(file) || exchange::is_alembic(file));
-    if let Some(rate) = head.filter(|_| !of_hair).map(exchange::frame_rate).transpose()?.flatten() {
+    let hair_has_rate = hair.is_some_and(|file| exchange::is_usd(file) || exchange::is_alembic(file));
+    if let Some(rate) = head.filter(|_| !hair_has_rate).map(exchange::frame_rate).transpose()?.flatten() {
         shot.rate = rate;
     }
     let (of_head, head_text) = match head {
@@ -351,45 +354,6 @@ fn by_height(mesh: &Mesh, up: Axis) -> (String, String) {
             ("\"cm\"".to_owned(), guess.to_owned())
         }
     }
-}
-
-/// Number of roots to check whether they are on a mesh.
-const JUDGED: usize = 100;
-
-/// Whether roots are on a mesh: half of them are near one of its vertices.
-fn grow_on(roots: &[Vec3], mesh: &Mesh) -> bool {
-    let step = roots.len().div_ceil(JUDGED).max(1);
-    let judged: Vec<Vec3> = roots.iter().copied().step_by(step).collect();
-    let within = near(roots);
-    2 * judged.iter().filter(|root| is_near(**root, mesh, within)).count() >= judged.len()
-}
-
-/// The first points of strands, or a sample of the actual roots if many strands have their last point, and not the
-/// first, on the mesh.
-fn likely_roots(strands: &Strands, mesh: &Mesh) -> Vec<Vec3> {
-    // A smaller number may touch the skin with their tips, as on a shoulder.
-    const MANY: f32 = 0.2;
-    let firsts: Vec<Vec3> = strands.iter().map(|strand| strand[0]).collect();
-    let within = near(&firsts);
-    let judged = strands.iter().step_by(strands.len().div_ceil(JUDGED).max(1));
-    let root = |strand: &[Vec3]| {
-        let (first, last) = (strand[0], strand[strand.len() - 1]);
-        let tip_first = !is_near(first, mesh, within) && is_near(last, mesh, within);
-        (if tip_first { last } else { first }, tip_first)
-    };
-    let (roots, tip_first): (Vec<Vec3>, Vec<bool>) = judged.map(root).unzip();
-    let count = tip_first.iter().filter(|&&tip_first| tip_first).count();
-    if count as f32 >= MANY * roots.len() as f32 && count > 0 { roots } else { firsts }
-}
-
-/// Largest distance from a vertex on a mesh, relative to the spread of the roots: in a coarse mesh, vertices are a
-/// tenth of a scalp apart, with roots between them.
-fn near(roots: &[Vec3]) -> f32 {
-    0.15 * spread(roots)
-}
-
-fn is_near(place: Vec3, mesh: &Mesh, within: f32) -> bool {
-    mesh.positions.iter().any(|p| p.distance_squared(place) <= within * within)
 }
 
 /// The up axis of a mesh that does not declare it: z if it is clearly taller that way, else y.
