@@ -7,6 +7,7 @@
 //! queries use the tree.
 
 mod filled;
+mod nearest;
 pub(crate) mod rims;
 mod sample;
 mod stored;
@@ -17,6 +18,7 @@ use std::sync::OnceLock;
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
+pub(crate) use self::nearest::Nearest;
 pub(crate) use self::sample::{Places, whole};
 pub use self::stored::Samples;
 use crate::Mesh;

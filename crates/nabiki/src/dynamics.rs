@@ -15,6 +15,7 @@
 //! | `gain.rs` | inertia and gain of the paper's form; the acceleration A of the free form; places along a strand |
 //! | `pull.rs`, `stability.rs` | what pulls on hair besides the field; the check that refuses what is too strong |
 //! | `tangents.rs`, `air.rs` | strands of the f64 twins with derivatives, for the solver, and the field that they ask |
+//! | `ride.rs` | the effect of skin that moves on the strands that it carries |
 //! | `state.rs` | saved states, as bytes with a checksum |
 //! | `sweep.rs` | all blocks, on all cores, through any number of frames |
 //! | `block.rs`, `row.rs`, `transpose.rs` | sixteen strands side by side, and the way of their points into [`Strands`] |
@@ -28,6 +29,7 @@ mod gain;
 mod paper;
 mod pull;
 mod reference;
+mod ride;
 mod row;
 mod runner;
 mod simulation;
@@ -41,6 +43,8 @@ mod timeline;
 mod transpose;
 mod trigonometry;
 
+use std::sync::Arc;
+
 use glam::{Affine3A, Quat, Vec3};
 
 use crate::body::Body;
@@ -51,6 +55,7 @@ use crate::field::Field;
 use crate::free_form::FreeMotion;
 use crate::pose::Pose;
 use crate::pseudo_force::{Gamma, PseudoForce};
+use crate::skin::{Skin, SkinFrame};
 use crate::strands::Strands;
 use crate::{settings, words};
 
@@ -135,6 +140,8 @@ pub struct Dynamics {
     pub polar_axis: Vec3,
     /// Disturbance of the segments, if any. Paper's form only.
     pub disturbance: Option<Disturbance>,
+    /// The skin that carries the roots, if it moves in head space. Without it, the head carries them.
+    pub skin: Option<Arc<Skin>>,
     /// The equations of motion.
     pub form: Form,
 }
@@ -163,6 +170,7 @@ impl Dynamics {
             shell: 1.25,
             polar_axis: Vec3::Y,
             disturbance: None,
+            skin: None,
             form: Form::default(),
         }
     }
@@ -191,7 +199,8 @@ impl Dynamics {
 
     /// The same motion in seconds, to first order, at another step rate (frames per second). With R times as many
     /// steps: the time step becomes 1 / R of its value; settling, disturbances and [`Motion::frames`] get R times as
-    /// many frames; and cohesion per cm per frame becomes R times as strong. Motions of bodies get interpolated poses.
+    /// many frames; and cohesion per cm per frame becomes R times as strong. Motions of bodies and skin
+    /// are interpolated.
     /// Forces, stiffness, hold, gravity, pressure, drag and contact stay the same. Settings of fields that count frames
     /// are not changed here: build those fields for the new rate. The random turns of disturbances differ.
     ///
@@ -213,6 +222,9 @@ impl Dynamics {
             disturbance.every = frames(disturbance.every);
             disturbance.from = frames(disturbance.from);
             disturbance.over = frames(disturbance.over).min(disturbance.every);
+        }
+        if let Some(skin) = &mut dynamics.skin {
+            *skin = Arc::new(skin.resampled(self.motion.frames, dynamics.motion.frames));
         }
         if let Form::Free(free) = &mut dynamics.form {
             free.form.settle = free.form.settle.times(ratio);
@@ -268,6 +280,10 @@ pub struct FrameInput<'a> {
     ///
     /// [`BodyWay`]: crate::body::BodyWay
     pub bodies: &'a [Option<[Pose; 2]>],
+    /// The skin in that frame, in the frame before and in the one before that, from [`Skin::frame`] of
+    /// [`Dynamics::skin`]; ignored without such a skin. `None` means that it follows [`Skin::frames`]. If it jumps, pass
+    /// the new shape three times.
+    pub skin: Option<[&'a SkinFrame; 3]>,
 }
 
 impl<'a> FrameInput<'a> {
@@ -281,20 +297,26 @@ impl<'a> FrameInput<'a> {
             Some(earlier) => pose(earlier),
             None => pose(0).continued_back_from(&pose(1)),
         };
-        Self { frame, pose: pose(frame), before: [pose(before), earlier], field, bodies: &[] }
+        Self { frame, pose: pose(frame), before: [pose(before), earlier], field, bodies: &[], skin: None }
     }
 
     /// A frame of a head whose pose is known from step to step. `before` holds the poses of the previous step and of
     /// the step before it. If the head jumps, pass `[pose; 2]`: the hair moves along and does not feel the jump. See
     /// [`Simulation::jumped`] for bodies.
     pub fn live(frame: u32, pose: Pose, before: [Pose; 2], field: &'a dyn Field) -> Self {
-        Self { frame, pose, before, field, bodies: &[] }
+        Self { frame, pose, before, field, bodies: &[], skin: None }
     }
 
     /// Sets the poses of [`bodies`](Self::bodies).
     #[must_use]
     pub fn with_bodies(self, bodies: &'a [Option<[Pose; 2]>]) -> Self {
         Self { bodies, ..self }
+    }
+
+    /// Sets the shapes of the [`skin`](Self::skin), of this frame first.
+    #[must_use]
+    pub fn with_skin(self, frames: [&'a SkinFrame; 3]) -> Self {
+        Self { skin: Some(frames), ..self }
     }
 
     /// Transforms points from the space of body number `b` to head space: at the end of this step of the frame, and at its beginning.

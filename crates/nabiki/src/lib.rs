@@ -27,6 +27,7 @@
 //! | inertia length floor | shorter hair has the inertia of hair of this length |
 //! | settle, drag | frames in which a swing falls to 1/e; how far a moving head leaves hair behind |
 //! | substep | one of the steps that the free form divides a frame into |
+//! | skin, place | a mesh that carries roots and may deform; where on it a root belongs, see [`skin`] |
 //! | body, clearance | what hair does not enter; how far a node is kept from its skin |
 //! | gap | a lower bound of a node's distance to the nearest body, which saves asking |
 //! | fold | a place that a ball of 3 cm does not reach, as behind an ear; filled where hair touches the head |
@@ -101,6 +102,7 @@ mod scalar;
 pub mod setting;
 #[cfg(test)]
 mod sketch;
+pub mod skin;
 pub mod smoothing;
 pub mod solve;
 pub mod strands;
@@ -116,6 +118,7 @@ pub use head::Head;
 pub use mesh::Mesh;
 pub use pose::Pose;
 pub use profile::Profile;
+pub use skin::Skin;
 pub use strands::Strands;
 
 /// Version of the computed motion. It increases whenever the same scene moves differently, even by one bit. Caches and

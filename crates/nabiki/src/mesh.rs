@@ -50,20 +50,25 @@ impl Mesh {
     /// corner over the lengths of its two edges (N. Max, "Weights for computing vertex normals from facet normals",
     /// 1999). For any mesh of a sphere they are exact. A vertex without a triangle that has an area gets +y.
     pub fn vertex_normals(&self) -> Vec<Vec3> {
-        let mut normals = vec![Vec3::ZERO; self.positions.len()];
-        for triangle in &self.triangles {
-            for corner in 0..3 {
-                let [at, next, last] = [0, 1, 2].map(|i| triangle[(corner + i) % 3] as usize);
-                let [a, b] = [next, last].map(|v| self.positions[v] - self.positions[at]);
-                let weighted = (a / a.length_squared()).cross(b / b.length_squared());
-                if weighted.is_finite() {
-                    normals[at] += weighted;
-                }
+        vertex_normals(&self.positions, &self.triangles, |v| v)
+    }
+}
+
+/// See [`Mesh::vertex_normals`]. `same` gives the vertex whose normal a vertex shares.
+pub(crate) fn vertex_normals(positions: &[Vec3], triangles: &[[u32; 3]], same: impl Fn(usize) -> usize) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; positions.len()];
+    for triangle in triangles {
+        for corner in 0..3 {
+            let [at, next, last] = [0, 1, 2].map(|i| triangle[(corner + i) % 3] as usize);
+            let [a, b] = [next, last].map(|v| positions[v] - positions[at]);
+            let weighted = (a / a.length_squared()).cross(b / b.length_squared());
+            if weighted.is_finite() {
+                normals[same(at)] += weighted;
             }
         }
-        for n in &mut normals {
-            *n = n.try_normalize().unwrap_or(Vec3::Y);
-        }
-        normals
     }
+    for n in &mut normals {
+        *n = n.try_normalize().unwrap_or(Vec3::Y);
+    }
+    normals
 }

@@ -2,7 +2,7 @@
 
 use std::io::{Read, Seek};
 
-use glam::Affine3A;
+use glam::{Affine3A, Vec3};
 use nabiki::Mesh;
 use nabiki_exchange::{Candidate, FIRST_SHAPE, Polygons, add_polygons, kept_holes, those_that_show};
 
@@ -52,13 +52,36 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(Chosen { objects, unread })
     }
 
-    /// Appends the polygons of an object as they are at `time` (s); the answer says why they have no texture coordinates, if those
-    /// that it has are none.
-    pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<Option<String>, Problem> {
-        let path = self.tree.path(object);
-        let inside = self.schema(object)?;
-        let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
-        let header = required(&inside, "P", &path)?;
+    /// The times (s) at which the points of the chosen meshes move, growing.
+    pub(crate) fn times_of_points(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<f64>, Problem> {
+        let mut times = Vec::new();
+        for object in self.chosen_meshes(wanted)?.objects {
+            let (path, inside) = (self.tree.path(object), self.schema(object)?);
+            let header = required(&inside, "P", &path)?;
+            if header.different_samples() > 1 {
+                let timing = &self.tree.timings[header.timing];
+                times.extend((0..header.samples).map(|n| timing.time(n)));
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        Ok(times)
+    }
+
+    /// The vertices of the chosen meshes at a time (s), in the world.
+    pub(crate) fn vertices_at(&mut self, wanted: &dyn Fn(&str) -> bool, time: f64) -> Result<Vec<Vec3>, Problem> {
+        let mut all = Vec::new();
+        for object in self.chosen_meshes(wanted)?.objects {
+            let (path, inside) = (self.tree.path(object), self.schema(object)?);
+            let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
+            let positions = self.positions(required(&inside, "P", &path)?, time)?;
+            all.extend(positions.into_iter().map(|p| world.transform_point3(p)));
+        }
+        Ok(all)
+    }
+
+    /// Points at a time (s), on the way from one sample to the next.
+    fn positions(&mut self, header: &Header, time: f64) -> Result<Vec<Vec3>, Problem> {
         let (frame, share) = self.tree.timings[header.timing].at(time, header.samples);
         let mut positions = self.tree.points(header, frame)?;
         if share > 0.0 {
@@ -67,6 +90,18 @@ impl<R: Read + Seek> ArchiveReader<R> {
                 go_toward(&mut positions, &next, share);
             }
         }
+        Ok(positions)
+    }
+
+    /// Appends the polygons of an object as they are at `time` (s); the answer says why they have no texture coordinates, if those
+    /// that it has are none.
+    pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<Option<String>, Problem> {
+        let path = self.tree.path(object);
+        let inside = self.schema(object)?;
+        let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
+        let header = required(&inside, "P", &path)?;
+        let (frame, _) = self.tree.timings[header.timing].at(time, header.samples);
+        let positions = self.positions(header, time)?;
         let mut numbers = |name: &str| -> Result<Vec<i64>, Problem> {
             let header: &Header = required(&inside, name, &path)?;
             let (sample, _) = self.tree.timings[header.timing].at(time, header.samples);

@@ -411,7 +411,13 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         let Some(object) = (1..self.tree.objects.len()).find(named) else {
             return Err(Problem(format!("has no object {node}: node can be {}", self.movers()?.join(", "))));
         };
-        let times = self.above(object)?.times;
+        let mut times = self.above(object)?.times;
+        if times.len() < 2 {
+            // A mesh that only bends moves as long as that lasts.
+            let path = self.tree.path(object);
+            let bends = self.times_of_points(&|mesh| mesh == path)?;
+            times = if bends.is_empty() { times } else { bends };
+        }
         let mut motion = Vec::with_capacity(times.len());
         for time in times {
             self.tree.budget().next_moment()?;
@@ -422,6 +428,16 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
             motion.push(Placed::of(time, &world));
         }
         Ok(motion)
+    }
+
+    fn bending_times(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<f64>, Problem> {
+        self.tree.budget().next_question();
+        self.times_of_points(wanted)
+    }
+
+    fn bent_meshes(&mut self, wanted: &dyn Fn(&str) -> bool, time: f64) -> Result<Vec<Vec3>, Problem> {
+        self.tree.budget().next_moment()?;
+        self.vertices_at(wanted, time)
     }
 }
 

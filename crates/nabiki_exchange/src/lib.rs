@@ -51,6 +51,6 @@ pub use knots::Knots;
 pub use left_out::LeftOut;
 pub use polygons::{Polygons, Uvs, add_polygons};
 pub use problem::Problem;
-pub use reader::{Contents, FIRST_SHAPE, GroomReader, Kept, Placed, Prim, PrimKind};
+pub use reader::{BOUND_SHAPE, Contents, FIRST_SHAPE, GroomReader, Kept, Placed, Prim, PrimKind};
 pub use shown::{Candidate, Hidden, kept_holes, those_that_show};
 pub use window::Window;

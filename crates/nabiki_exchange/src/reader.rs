@@ -1,6 +1,6 @@
 //! The interface of readers of grooms, for all formats.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3};
+use glam::{DAffine3, DMat4, DQuat, DVec3, Vec3};
 use nabiki::{Hair, Mesh};
 
 use crate::Problem;
@@ -9,6 +9,9 @@ use crate::in_place::InPlace;
 
 /// The message about a mesh whose points move: heads and bodies are rigid.
 pub const FIRST_SHAPE: &str = "it keeps the shape of the first frame";
+
+/// The same where it is read as it was bound to its joints.
+pub const BOUND_SHAPE: &str = "it keeps the shape in which it was bound";
 
 /// A file of curves, meshes and transforms. All results are in the file's unit and axes.
 pub trait GroomReader {
@@ -98,6 +101,21 @@ pub trait GroomReader {
     fn joint_of_meshes(&mut self, _wanted: &dyn Fn(&str) -> bool) -> Result<Option<String>, Problem> {
         Ok(None)
     }
+
+    /// The times (s) at which the meshes whose path is `wanted` bend: their points, joints or blend shapes move. Empty where they
+    /// only go as a whole.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn bending_times(&mut self, _wanted: &dyn Fn(&str) -> bool) -> Result<Vec<f64>, Problem> {
+        Ok(Vec::new())
+    }
+
+    /// The vertices of those meshes at a time (s), transforms applied, in the order of [`meshes`](Self::meshes).
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn bent_meshes(&mut self, wanted: &dyn Fn(&str) -> bool, time: f64) -> Result<Vec<Vec3>, Problem>;
 
     /// Where that object is in the pose in which [`meshes`](Self::meshes) has what is bound to it; none where that is the first of its
     /// way.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec3};
 use nabiki::{Hair, Mesh, Strands};
 use nabiki_alembic::{ArchiveReader, HairArchive};
 use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window};
@@ -173,8 +173,8 @@ pub fn carries_mesh(path: &Path, node: &str, groups: &[String]) -> Result<bool> 
     Ok(meshes.iter().any(|mesh| parts::is_kept(groups, mesh) && parts::is_part(node, mesh)))
 }
 
-/// What moves a mesh that a scene reads: the skeleton joint that it is bound to, or the nearest moving transform above
-/// it. `None` in other formats, and if nothing moves.
+/// What moves a mesh that a scene reads: the skeleton joint that it is bound to, the nearest moving transform above it, or
+/// the mesh itself if it only bends. `None` in other formats, and if nothing moves.
 ///
 /// # Errors
 /// If the file is invalid.
@@ -183,17 +183,43 @@ pub fn mover_of_mesh(path: &Path, groups: &[String]) -> Result<Option<String>> {
         return Ok(None);
     }
     let mut file = Opened::new(path)?;
+    let bends = file.ask(|r| r.bending_times(&|mesh| parts::is_kept(groups, mesh)))?.len() > 1;
     if let Some(joint) = file.ask(|r| r.joint_of_meshes(&|mesh| parts::is_kept(groups, mesh)))? {
         let way = file.ask(|r| r.motion(&joint))?;
         let stays = |placed: &Placed| Placed { time: way[0].time, ..*placed } == way[0];
-        return Ok((!way.iter().all(stays)).then_some(joint));
+        return Ok((bends || !way.iter().all(stays)).then_some(joint));
     }
     let (prims, mut meshes) = (file.ask(|r| r.prims())?, file.ask(|r| r.contents())?.meshes);
     meshes.retain(|mesh| parts::is_kept(groups, mesh));
     let moves = |prim: &Prim| prim.kind == PrimKind::Transform && prim.samples > 1;
     let carries = |prim: &Prim| meshes.iter().any(|mesh| parts::is_part(&prim.path, mesh));
     let movers = prims.into_iter().filter(|prim| moves(prim) && carries(prim));
-    Ok(movers.map(|prim| prim.path).max_by_key(|path| path.matches('/').count()))
+    let mover = movers.map(|prim| prim.path).max_by_key(|path| path.matches('/').count());
+    // Skin that bends on a head that stands still.
+    Ok(mover.or_else(|| meshes.into_iter().next().filter(|_| bends)))
+}
+
+/// Whether the meshes that a scene reads bend.
+///
+/// # Errors
+/// If the file is invalid.
+pub(crate) fn bends(path: &Path, groups: &[String]) -> Result<bool> {
+    let times = Opened::new(path)?.ask(|r| r.bending_times(&|mesh| parts::is_kept(groups, mesh)))?;
+    Ok(times.len() > 1)
+}
+
+/// Takes the vertices of those meshes at some times (s), in the order in which [`mesh`] reads them.
+pub(crate) fn each_bent(
+    path: &Path,
+    groups: &[String],
+    times: &[f64],
+    frame: &mut dyn FnMut(usize, Vec<Vec3>) -> Result<()>,
+) -> Result<()> {
+    let mut file = Opened::new(path)?;
+    for (n, &time) in times.iter().enumerate() {
+        frame(n, file.ask(|r| r.bent_meshes(&|mesh| parts::is_kept(groups, mesh), time))?)?;
+    }
+    Ok(())
 }
 
 /// Reads the way of the object, prim or joint `node`.

@@ -45,6 +45,7 @@ pub mod placement;
 pub mod screen;
 pub mod shell;
 mod short;
+pub mod skin;
 mod sum;
 pub mod tfx;
 mod unit;

@@ -7,9 +7,12 @@ pub(crate) mod parts;
 mod ply;
 mod tfxmesh;
 
-use std::{collections::HashMap, path::Path};
+use std::{
+    collections::{HashMap, HashSet},
+    path::Path,
+};
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use nabiki::Mesh;
 use serde::Serialize;
 
@@ -169,6 +172,26 @@ fn push_fan(mesh: &mut Mesh, polygon: &[(u32, Option<Vec2>)]) {
     }
 }
 
+/// Which vertices of a mesh are left once those at the same place are joined.
+pub(crate) struct Welded {
+    /// How many it had.
+    pub vertices: usize,
+    /// The numbers of those that are left, in their order.
+    pub kept: Vec<u32>,
+}
+
+/// Those that [`import`] keeps of these positions.
+pub(crate) fn welded_from(positions: &[Vec3]) -> Welded {
+    let mut seen = HashSet::with_capacity(positions.len());
+    let first = positions.iter().enumerate().filter(|(_, p)| seen.insert(place(**p)));
+    Welded { vertices: positions.len(), kept: first.map(|(v, _)| v as u32).collect() }
+}
+
+/// The same for positions that are equal: adding 0 turns -0 into 0.
+fn place(p: Vec3) -> [u32; 3] {
+    (p + 0.0).to_array().map(f32::to_bits)
+}
+
 /// Joins vertices at the very same place (the first of them stays) and drops triangles with coinciding corners. What
 /// is left keeps the texture coordinates of its own corners, so that seams stay.
 fn weld(mesh: Mesh) -> Mesh {
@@ -178,9 +201,7 @@ fn weld(mesh: Mesh) -> Mesh {
         .positions
         .iter()
         .map(|&p| {
-            // Adding 0 turns -0 into 0.
-            let place = (p + 0.0).to_array().map(f32::to_bits);
-            *numbers.entry(place).or_insert_with(|| {
+            *numbers.entry(place(p)).or_insert_with(|| {
                 positions.push(p);
                 positions.len() as u32 - 1
             })

@@ -189,6 +189,19 @@ impl Renderer {
         Ok(self)
     }
 
+    /// Draws the head with these vertices (head space, cm) from now on, as its skin bends. Motion blur shows its motion as a
+    /// whole, but not how it bends.
+    ///
+    /// # Panics
+    /// If their number is not that of the mesh.
+    pub fn bend_head(&mut self, vertices: &[Vec3]) {
+        if self.head.positions != vertices {
+            self.head.positions.copy_from_slice(vertices);
+            self.solids = Solids::new(&self.head, self.bodies.iter());
+            self.still = None;
+        }
+    }
+
     /// Also fills the layers of hair direction and motion in frames (only with coverage antialiasing).
     pub fn with_layers(mut self) -> Self {
         self.layers = true;

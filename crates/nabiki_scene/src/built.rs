@@ -7,6 +7,7 @@ mod forces;
 mod groom;
 mod identity;
 mod model;
+mod skin;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -20,6 +21,7 @@ use nabiki::dynamics::{Dynamics, Form, FrameInput, Motion, Reference, Simulation
 use nabiki::field::Keyframe;
 use nabiki::{Hair, Head, Mesh, Pose, SettingError, Strands};
 use nabiki_io::cache::{Origin, Shard};
+use nabiki_io::skin::says_rigid;
 use nabiki_render::DrawnBody;
 
 use crate::advice::Advice;
@@ -37,6 +39,7 @@ pub(crate) use way::holds_scenes;
 
 use bodies::BuiltBody;
 use model::ModelInputs;
+pub(crate) use skin::{Bent, Scalp};
 use stage::{At, Stage};
 
 /// Everything that a scene names, loaded and in head space, ready for stepping. Scenes share equal parts
@@ -49,8 +52,12 @@ pub struct BuiltScene {
     pub model: Arc<Model>,
     /// The poses of the head.
     pub way: Arc<Way>,
+    /// How the head's skin bends.
+    pub(crate) bent: Arc<Bent>,
     /// The hair at rest.
     pub groom: Arc<Groom>,
+    /// The skin under the hair.
+    pub(crate) scalp: Arc<Scalp>,
     /// The fields.
     pub forces: Arc<Forces>,
     /// The settings of the motion.
@@ -225,6 +232,18 @@ impl BuiltScene {
     /// The pose of the head in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
         self.way.poses.get(frame as usize).copied().unwrap_or_default()
+    }
+
+    /// Phrases about data of the head's file that is not used.
+    pub(crate) fn unread_of_head(&self) -> Vec<String> {
+        let unread = self.model.report.iter().flat_map(|report| &report.unread);
+        unread.filter(|line| self.bent.frames.is_empty() || !says_rigid(line)).cloned().collect()
+    }
+
+    /// The vertices of the head's mesh in a frame (head space, cm), if its skin bends.
+    pub fn skin(&self, frame: u32) -> Option<&[Vec3]> {
+        let frames = &self.bent.frames;
+        frames.get(frame as usize).or(frames.last()).map(Vec::as_slice)
     }
 
     /// The visible bodies: index, surface (body space, cm) and world pose in a frame.

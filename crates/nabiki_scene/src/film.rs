@@ -152,6 +152,9 @@ impl<'a> Film<'a> {
         let camera = picture.camera.at(n as f32 / built.frames() as f32);
         let views = View::around(&camera, picture.size, &film.bounds, views);
         let bodies = built.drawn_poses(n);
+        if let Some(skin) = built.skin(n) {
+            film.renderer.bend_head(skin);
+        }
         each_frame(watch, "drawing", 0..=views.len() as u32 - 1, |k| {
             let view = views[k as usize];
             let view = View { eye: view.eye + pose.position_cm, ..view };
@@ -185,6 +188,9 @@ impl<'a> Film<'a> {
     fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View)> {
         let previous = self.previous.take();
         let built = self.built;
+        if let Some(skin) = built.skin(n) {
+            self.renderer.bend_head(skin);
+        }
         let (bodies, bodies_before) = (built.drawn_poses(n), built.drawn_poses(n.saturating_sub(1)));
         let moment = |n, strands, bodies| Moment { strands, pose: built.pose(n), view: self.view_in_world(n), bodies };
         let now = moment(n, strands, bodies.as_slice());

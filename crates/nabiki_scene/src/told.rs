@@ -139,6 +139,8 @@ pub struct SceneSummary {
     pub frames_in_file: usize,
     /// How the head's motion was read and converted.
     pub motion: Option<String>,
+    /// How the head's skin carries hair, if it bends.
+    pub skin: Option<String>,
     /// Number of strands built.
     pub strands: usize,
     /// Number of strands of the scene.
@@ -166,7 +168,8 @@ impl SceneSummary {
             turned_triangles: built.model.head.orientation.turned,
             open_edges: built.model.head.orientation.open_edges,
             skull_is_open: built.model.head.openings.iter().any(|opening| opening.missing.is_some()),
-            unread: built.model.report.as_ref().map_or_else(Vec::new, |report| report.unread.clone()),
+            unread: built.unread_of_head(),
+            skin: built.scalp.report.clone(),
             unread_of_bodies: bodies
                 .flat_map(|(i, body)| body.unread.iter().map(move |unread| (i, unread.clone())))
                 .collect(),
@@ -206,6 +209,9 @@ impl fmt::Display for SceneSummary {
         }
         if let Some(motion) = &self.motion {
             writeln!(f, "          {}", OneLine(motion))?;
+        }
+        if let Some(skin) = &self.skin {
+            writeln!(f, "          {}", OneLine(skin))?;
         }
         for (i, unread) in &self.unread_of_bodies {
             writeln!(f, "  body[{i}] ignored in its file: {}", OneLine(unread))?;

@@ -28,6 +28,8 @@
 #![forbid(unsafe_code)]
 
 mod arcs;
+mod bending;
+mod blend;
 mod carried;
 mod content;
 mod crate_file;

@@ -1,8 +1,9 @@
 //! Which meshes of a layer make its head, and what is said of them.
 
-use nabiki_exchange::{Candidate, FIRST_SHAPE, kept_holes, those_that_show};
+use nabiki_exchange::{BOUND_SHAPE, Candidate, FIRST_SHAPE, kept_holes, those_that_show};
 
 use crate::Problem;
+use crate::blend::BlendShapes;
 use crate::instances;
 use crate::opened::Layer;
 use crate::shown::hidden;
@@ -32,6 +33,9 @@ pub fn chosen(layer: &mut Layer, wanted: &dyn Fn(&str) -> bool, stance: Stance) 
         let holes = layer.at(prim, "holeIndices", f64::NEG_INFINITY).map(|holes| layer.integers(holes)).transpose()?;
         unread.extend(kept_holes(&layer.path(prim), holes.map_or(0, |holes| holes.len())));
         unread.extend(bent(layer, prim, stance)?);
+        if let Some(shapes) = BlendShapes::of(layer, prim)? {
+            unread.extend(shapes.unread(layer));
+        }
         unread.extend(transform::not_there(layer, prim)?);
     }
     unread.sort();
@@ -53,7 +57,7 @@ fn bent(layer: &mut Layer, prim: usize, stance: Stance) -> Result<Vec<String>, P
     let unblended = skin.unblended(&path).filter(|_| stance == Stance::First);
     let kept = match stance {
         Stance::First => FIRST_SHAPE,
-        Stance::Bound => "it keeps the shape in which it was bound",
+        Stance::Bound => BOUND_SHAPE,
     };
     Ok(skin.bends().then(|| format!("how joints bend {path}: {kept}")).into_iter().chain(unblended).collect())
 }

@@ -13,6 +13,7 @@ use nabiki_exchange::{
 
 use crate::Problem;
 use crate::arcs;
+use crate::blend::BlendShapes;
 use crate::instances;
 use crate::meshes;
 use crate::opened::Layer;
@@ -236,10 +237,10 @@ impl StageReader {
 }
 
 /// Points of a prim where they hang on joints, if they do.
-struct InPose {
-    points: Vec<Vec3>,
+pub(crate) struct InPose {
+    pub points: Vec<Vec3>,
     /// Takes them to the world.
-    world: DMat4,
+    pub world: DMat4,
     /// Whether they do.
     is_bound: bool,
     /// What is said of how they do.
@@ -247,13 +248,18 @@ struct InPose {
 }
 
 /// Points of a prim, as its skeleton has them if it is bound to one.
-fn in_place(
+pub(crate) fn in_place(
     layer: &mut Layer,
     prim: usize,
     mut points: Vec<Vec3>,
     stance: Stance,
     time: f64,
 ) -> Result<InPose, Problem> {
+    if stance == Stance::First
+        && let Some(shapes) = BlendShapes::of(layer, prim)?
+    {
+        shapes.blend(layer, &mut points, time)?;
+    }
     match Skin::of(layer, prim)?.filter(|skin| skin.fits(points.len())) {
         None => Ok(InPose { points, world: transform::world(layer, prim, time)?, is_bound: false, said: None }),
         Some(skin) => {
@@ -452,7 +458,12 @@ impl GroomReader for StageReader {
         let rate = self.codes_a_second()?;
         let mover = self.mover(node)?;
         let mut times = match &mover {
-            Mover::Prim(prim) => transform::times(&self.layer, *prim),
+            Mover::Prim(prim) => {
+                // A mesh that only bends moves as long as that lasts.
+                let (path, mut times) = (self.layer.path(*prim), transform::times(&self.layer, *prim));
+                times.extend(self.bending_codes(&|mesh| mesh == path)?);
+                times
+            }
             Mover::Joint(joint) => joint.times(&self.layer),
         };
         times.sort_by(f64::total_cmp);
@@ -487,6 +498,20 @@ impl GroomReader for StageReader {
             motion.push(Placed::of(time / rate, &world));
         }
         Ok(motion)
+    }
+
+    fn bending_times(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Vec<f64>, Problem> {
+        self.layer.budget.next_question();
+        let rate = self.codes_a_second()?;
+        Ok(self.bending_codes(wanted)?.into_iter().map(|code| code / rate).collect())
+    }
+
+    fn bent_meshes(&mut self, wanted: &dyn Fn(&str) -> bool, time: f64) -> Result<Vec<Vec3>, Problem> {
+        self.layer.budget.next_moment()?;
+        let code = time * self.codes_a_second()?;
+        // Times are quotients of codes: a sample at this one is meant.
+        let whole = code.round();
+        self.bent_at(wanted, if (code - whole).abs() < 1e-6 { whole } else { code })
     }
 
     fn joint_of_meshes(&mut self, wanted: &dyn Fn(&str) -> bool) -> Result<Option<String>, Problem> {

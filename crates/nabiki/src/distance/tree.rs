@@ -95,6 +95,13 @@ impl Tree {
         best.sqrt()
     }
 
+    /// The corners of the triangle nearest to `p`.
+    pub(super) fn nearest(&self, p: Vec3) -> [Vec3; 3] {
+        let mut nearest = 0;
+        self.distance(p, f32::INFINITY, 0.0, &mut nearest);
+        self.triangles[nearest].map(Vec3::from)
+    }
+
     /// The winding number of the surface around `p`: 1 inside, 0 outside, in between where the surface has gaps.
     pub(super) fn winding(&self, p: Vec3) -> f32 {
         let p = Vec3A::from(p);

@@ -31,6 +31,7 @@ mod packed;
 mod passes;
 mod pulls;
 mod reference;
+mod ride_row;
 mod rotate;
 mod runner;
 mod segment;
@@ -39,6 +40,7 @@ mod work;
 
 use contact::{ANSWER, FAN, NEAR, PUSHES, ROUNDS, TOLERANCE_CM, TURN};
 pub(super) use grid::Crowd;
+pub(super) use head_frame::{HeadFrame, HeadWay};
 pub(super) use pulls::pulls;
 pub(super) use reference::{Common, Reference, Springs, Strand};
 pub(super) use runner::Runner;

@@ -84,7 +84,9 @@ impl Standing {
                     for input in &inputs {
                         let disturbance = dynamics.disturbance.as_ref();
                         let part = disturbance.and_then(|of| Some((of, of.part(input.frame)?)));
-                        strand.step(&common, &air(input), part.map(|(of, part)| of.turn(id, &part).map(f64::from)));
+                        let turn = part.map(|(of, part)| of.turn(id, &part).map(f64::from));
+                        let skin = dynamics.skin.as_ref().map(|skin| skin.at(input.frame));
+                        strand.step(&common, &air(input), turn, skin);
                     }
                 });
                 Standings::Paper(hair)

@@ -217,7 +217,8 @@ impl<const N: usize> Walk<N> for PaperWalk<'_, N> {
         let frame = self.moved.from() + n as u32 + 1;
         let part = disturbance.and_then(|disturbance| Some((disturbance, disturbance.part(frame)?)));
         let disturbed = part.map(|(disturbance, part)| disturbance.turn(self.moved.ids[s], &part).map(f64::from));
-        strand.step(&self.common, &self.airs[n], disturbed);
+        let skin = self.moved.dynamics.skin.as_ref().map(|skin| skin.at(frame));
+        strand.step(&self.common, &self.airs[n], disturbed, skin);
     }
 
     fn positions(strand: &Self::Strand) -> &[Vector<Dual<N>>] {

@@ -96,6 +96,9 @@ fn triangles(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
     }
 }
 
+/// What becomes of a mesh that bends, where a head or body does not.
+pub(crate) const STILL_SHAPE: &str = "it keeps its shape in the file's still pose";
+
 /// A primitive of a mesh as one of its nodes has it.
 struct Part<'a> {
     node: gltf::Node<'a>,
@@ -225,15 +228,14 @@ impl<'a> Part<'a> {
 
     /// What bends it over time, which a head or body does not.
     fn bends(&self) -> impl Iterator<Item = String> {
-        const STILL: &str = "it keeps its shape in the file's still pose";
         let name = self.name();
         let skin = self.carriers.as_ref().and_then(|_| self.node.skin()).map(|skin| match skin.joints().count() {
-            1 => format!("the joint that {name} is bound to: {STILL}"),
-            joints => format!("the {joints} joints that {name} is bound to: {STILL}"),
+            1 => format!("the joint that {name} is bound to: {STILL_SHAPE}"),
+            joints => format!("the {joints} joints that {name} is bound to: {STILL_SHAPE}"),
         });
         let morphs = match self.primitive.morph_targets().len() {
             0 => None,
-            morphs => Some(format!("changes of the {morphs} morphs of {name}: {STILL}")),
+            morphs => Some(format!("changes of the {morphs} morphs of {name}: {STILL_SHAPE}")),
         };
         skin.into_iter().chain(morphs)
     }

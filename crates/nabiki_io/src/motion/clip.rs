@@ -108,7 +108,8 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     // Meshes stand in the still pose, from which turns are counted.
     let unturned = Sample { rotation: DQuat::IDENTITY, ..still_pose };
     let bound = Some(pose_of(world_from_file.pose(unturned)));
-    Ok(HeadMotion { frame_rate, poses, bound, first_frame: None, report })
+    let times = [start, source.speed / frame_rate];
+    Ok(HeadMotion { frame_rate, poses, bound, times, first_frame: None, report })
 }
 
 /// The nodes from the scene's root down to the one named.

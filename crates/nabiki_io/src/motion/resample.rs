@@ -64,7 +64,8 @@ impl Track {
             self.left_out.map_or_else(String::new, |what| format!("; ignored: {what}")),
             self.unlike.as_ref().map_or_else(String::new, |unlike| format!("; {unlike}")),
         );
-        Ok(HeadMotion { frame_rate, poses, bound, first_frame, report })
+        let times = [self.times[0], source.speed / frame_rate];
+        Ok(HeadMotion { frame_rate, poses, bound, times, first_frame, report })
     }
 }
 

@@ -24,6 +24,8 @@ pub struct HeadMotion {
     /// World pose of the joint when meshes are bound to it: a mesh of the same file is placed for this pose. `None` if
     /// the file does not have it.
     pub bound: Option<Pose>,
+    /// Time in the file of frame 0, and between two frames (s).
+    pub times: [f64; 2],
     /// Number of the first frame on the timeline of the shot, for files of complete scenes (USD, Alembic). `None` for
     /// others, and if the motion plays at another speed.
     pub first_frame: Option<i32>,

@@ -10,6 +10,7 @@ use super::dynamics::{dynamics, mean_lengths, set_free};
 use super::forces::ForcesInputs;
 use super::groom::{Groom, GroomInputs, Wanted};
 use super::model::{Model, ModelInputs};
+use super::skin::{Bent, BentInputs, Scalp, ScalpInputs};
 use super::stage::{At, GoesOn, Stage};
 use super::way::{Way, WayInputs};
 use super::{BuiltScene, Forces, Shown};
@@ -44,6 +45,7 @@ fn build_about(
     let at = At::new(&scene, goes_on);
     let way = Way::of(WayInputs::of(&scene, &model), known.iter().map(|known| &known.way), at)?;
     way.check_length(&scene)?;
+    let bent = Bent::of(BentInputs::of(&scene, &model, &way), known.iter().map(|known| &known.bent), at)?;
     let rest_pose = way.poses.first().copied().unwrap_or_default();
     let mut dynamics = dynamics(&scene, &model, rest_pose, at)?;
     let known_grooms = || known.iter().map(|known| &known.groom);
@@ -59,6 +61,9 @@ fn build_about(
             (worn.width, worn.colour) = look;
         }
     }
+    let inputs = ScalpInputs { bent: bent.clone(), groom: groom.clone() };
+    let scalp = Scalp::of(inputs, known.iter().map(|known| &known.scalp), at)?;
+    dynamics.skin = scalp.skin.clone();
     let (mut bodies, mut of_speed) = (Vec::new(), 0.0);
     if scene.form == FormChoice::Free {
         let mean = mean_lengths(&groom.first);
@@ -70,7 +75,7 @@ fn build_about(
     let intervals = scene.field.force.iter().map(|force| force.keyframe(of_speed)).collect();
     let inputs = ForcesInputs::of(&scene, &model, &way, intervals);
     let forces = Forces::of(inputs, known.iter().map(|known| &known.forces), at)?;
-    Ok(BuiltScene { scene, model, way, groom, forces, dynamics, bodies, of_speed })
+    Ok(BuiltScene { scene, model, way, bent, groom, scalp, forces, dynamics, bodies, of_speed })
 }
 
 /// The bound of each field of the scene, and last that of `all` together.

@@ -86,6 +86,9 @@ impl BuiltScene {
         for frame in 0..self.way.poses.len() {
             add_pose(&mut digest, &self.way.poses[frame]);
         }
+        for frame in self.dynamics.skin.iter().flat_map(|skin| skin.frames()) {
+            frame.numbers(&mut |numbers| add_numbers(&mut digest, "skin", numbers));
+        }
         Ok(digest.finish())
     }
 

@@ -10,7 +10,7 @@ use nabiki_io::{Placement, exchange, mesh};
 use super::model::Model;
 use super::stage::{At, Stage};
 use crate::error::Result;
-use crate::scene::Scene;
+use crate::scene::{Scene, resolved};
 
 /// The poses of the head in each frame.
 #[derive(Debug)]
@@ -22,6 +22,8 @@ pub struct Way {
     pub report: Option<String>,
     /// Number of its first frame on the timeline of its file, if that has one.
     pub(super) begins: Option<i32>,
+    /// Time in its file of frame 0, and between two frames (s).
+    times: [f64; 2],
 }
 
 /// The inputs of a motion.
@@ -83,13 +85,26 @@ impl Stage for Way {
 
     fn make(inputs: Option<WayInputs>, at: At<'_>) -> Result<Self> {
         let read = inputs.as_ref().map(|inputs| inputs.read("head.motion", at)).transpose()?;
-        let (poses, report, begins) =
-            read.map_or_else(Default::default, |read| (read.poses.into(), Some(read.report), read.first_frame));
-        Ok(Self { inputs, poses, report, begins })
+        let still = || Self { inputs: None, poses: Arc::default(), report: None, begins: None, times: [0.0; 2] };
+        Ok(read.map_or_else(still, |read| Self {
+            inputs,
+            poses: read.poses.into(),
+            report: Some(read.report),
+            begins: read.first_frame,
+            times: read.times,
+        }))
     }
 }
 
 impl Way {
+    /// The file that both mesh and motion are of, and its times of frame 0 and between two frames (s), if the mesh is carried as it
+    /// lies there. Its skin may bend then.
+    pub(super) fn of_mesh(&self) -> Option<(&Path, [f64; 2])> {
+        let WayInputs { source, mesh, file, .. } = self.inputs.as_ref()?;
+        let mesh = mesh.as_deref().filter(|mesh| source.bind_at_start && resolved(file, &source.file) == *mesh)?;
+        holds_scenes(mesh).then_some((mesh, self.times))
+    }
+
     /// Refuses a motion that ends before the scene does.
     pub(super) fn check_length(&self, scene: &Scene) -> Result<()> {
         let (frames, given) = (scene.motion.frames as usize, self.poses.len());

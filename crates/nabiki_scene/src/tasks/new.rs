@@ -84,9 +84,9 @@ pub fn new(path: &Path, options: &NewOptions, watch: &mut dyn Watch) -> Result<(
     if let Some(file) = &options.hair {
         super::unread(file, &built.groom.hair.attributes.unread, watch);
     }
-    if let (Some(file), Some(report)) = (&options.head, &built.model.report) {
+    if let Some(file) = &options.head {
         let of_hair = options.hair.as_ref().map(|_| &built.groom.hair.attributes.unread[..]).unwrap_or_default();
-        let unread: Vec<String> = report.unread.iter().filter(|line| !of_hair.contains(line)).cloned().collect();
+        let unread: Vec<String> = built.unread_of_head().into_iter().filter(|line| !of_hair.contains(line)).collect();
         super::unread(file, &unread, watch);
     }
     let turned = built.groom.imported.as_ref().and_then(|imported| imported.report.turned());

@@ -2,17 +2,18 @@
 
 use glam::Vec3;
 
-use super::kernel::{FreeRow, FreeState, NONE, bend, carry, ends, stay_behind, untwist};
+use super::kernel::{FreeRow, FreeState, NONE, ZERO, bend, carry, untwist};
 use super::packed::{Packed, Plan, Step};
 use super::passes::{Blown, Go, Place, Stepped, Velocities};
 use super::reference::ROUNDS_PRESSED;
+use super::ride_row::{RideRow, at_rest_on};
 use super::solve::{answer, drive, pull_taut, slacken, solve, unwind};
 use super::work::{self, Work};
 use crate::dynamics::block::Block;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::sweep::Swept;
 use crate::prefetch::prefetch;
-use crate::vector::{scale, subtract};
+use crate::vector::scale;
 
 impl Swept for Packed {
     type State = FreeState;
@@ -26,9 +27,15 @@ impl Swept for Packed {
     fn frame(&self, block: &Block, plan: &Plan<'_>, states: &mut [FreeState], page: Option<&mut [Vec3]>) {
         let rows = &self.rows[block.rows()];
         match plan {
-            Plan::Rest => {
-                states.copy_from_slice(&self.rest[block.rows()]);
-                block.walk(&block.roots, states, rows, page, Place);
+            Plan::Rest(skin) => {
+                states.copy_from_slice(&self.at_rest[block.rows()]);
+                let mut roots = block.roots;
+                if let Some(skin) = skin {
+                    let turns;
+                    (roots, turns) = at_rest_on(skin, self.places(block));
+                    states.iter_mut().for_each(|state| state.direction = turns.of(&state.direction));
+                }
+                block.walk(&roots, states, rows, page, Place);
             }
             Plan::Velocities => block.walk(&PointRow::default(), states, rows, page, Velocities),
             Plan::Residual => {
@@ -59,18 +66,36 @@ impl Packed {
         work: &mut [Work],
     ) {
         let rows = &self.rows[block.rows()];
-        let of = Blown { packed: self, step, block, number: block.first_strand as usize / LANES };
+        let number = block.first_strand as usize / LANES;
+        let ride = step.skin.map(|skin| RideRow::new(&skin, self.places(block), &self.anchors[number]));
+        let of = Blown { packed: self, step, block, number, ride: ride.as_ref() };
+        if let Some(ride) = &ride {
+            of.carry(ride, states, work);
+        }
         of.blow(states, work);
         let h = 1.0 / step.steps as f32;
         let bodies = step.bodies.len() / step.steps as usize;
         let carried = (bodies > 0).then_some(self.weight_at_rest);
+        let from_rest = ride.as_ref().map(|ride| &ride.from_rest);
         for n in 1..=step.steps as usize {
-            if let Some((axis, angle)) = step.turn {
-                self.stay_behind(block, states, axis, h * angle, bodies > 0, work);
+            let roots = of.roots();
+            match (&ride, step.turn) {
+                (Some(ride), _) => {
+                    let turn = |lane: usize| (lane_of(&ride.axis, lane), h * ride.angle.0[lane]);
+                    if ride.turns {
+                        of.stay_behind(states, turn, bodies > 0, n == 1, work);
+                    } else if n > 1 {
+                        work.iter_mut().for_each(|work| work.shifted = ZERO);
+                    }
+                }
+                (None, Some((axis, angle))) => {
+                    of.stay_behind(states, |_| (axis, h * angle), bodies > 0, false, work);
+                }
+                (None, None) => {}
             }
-            carry(states, rows, &block.roots, carried, work);
+            carry(states, rows, &roots, from_rest, carried, work);
             untwist(work);
-            bend(states, rows, work);
+            bend(states, rows, from_rest, work);
             let bodies = &step.bodies[(n - 1) * bodies..n * bodies];
             let closer = bodies.iter().map(|body| body.closer).fold(0.0, f32::max);
             let stepped = Stepped { of, bodies, h, closer };
@@ -86,34 +111,7 @@ impl Packed {
                 }
             }
             let page = if n == step.steps as usize { page.take() } else { None };
-            block.walk(&block.roots, states, rows, page, Go::new(stepped, work));
-        }
-    }
-
-    /// Leaves hair behind by its share of the head's turn in a step.
-    #[inline(always)]
-    fn stay_behind(
-        &self,
-        block: &Block,
-        states: &mut [FreeState],
-        axis: [f32; 3],
-        angle: f32,
-        meets_bodies: bool,
-        work: &mut [Work],
-    ) {
-        let (rows, first) = (&self.rows[block.rows()], block.rows().start);
-        let (mut before, mut end) = (block.roots, block.roots);
-        let way = angle.abs() * self.longest * self.most_drag;
-        for (i, ((state, row), work)) in states.iter_mut().zip(rows).zip(work).enumerate() {
-            before = ends(state, row, &before);
-            stay_behind(state, row, axis, angle, &self.air(first + i).drag);
-            if meets_bodies {
-                end = ends(state, row, &end);
-                for lane in 0..LANES {
-                    set_lane(&mut work.shifted, lane, subtract(lane_of(&end, lane), lane_of(&before, lane)));
-                    state.gap.0[lane] -= way;
-                }
-            }
+            block.walk(&roots, states, rows, page, Go::new(stepped, work));
         }
     }
 
@@ -121,9 +119,9 @@ impl Packed {
     #[inline(always)]
     fn drive_at_rest(&self, block: &Block, states: &mut [FreeState], work: &mut [Work]) {
         let (rows, first) = (&self.rows[block.rows()], block.rows().start);
-        carry(states, rows, &block.roots, None, work);
+        carry(states, rows, &block.roots, None, None, work);
         untwist(work);
-        bend(states, rows, work);
+        bend(states, rows, None, work);
         for (i, (row, work)) in rows.iter().zip(&mut *work).enumerate() {
             work.drag = self.air(first + i).air;
             for lane in 0..LANES {

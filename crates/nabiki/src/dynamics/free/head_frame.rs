@@ -4,12 +4,13 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::pulls::weight;
 use crate::dynamics::FrameInput;
+use crate::dynamics::ride::axis_and_angle;
 use crate::free_form::FreeForm;
 use crate::pose::Pose;
 
 /// The head's motion in one frame, as head space sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HeadFrame {
+pub(in crate::dynamics) struct HeadFrame {
     /// The head's turn from the frame before, in head space: axis, of length 1, and angle (rad). `None` where it is 0.
     pub turn: Option<(DVec3, f64)>,
     /// The force that weight exerts.
@@ -20,7 +21,7 @@ pub(super) struct HeadFrame {
 
 /// Velocity (cm a frame) and acceleration (cm a frame^2) of every point that the head carries.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HeadWay {
+pub(in crate::dynamics) struct HeadWay {
     pub velocity: DAffine3,
     pub acceleration: DAffine3,
 }
@@ -29,7 +30,11 @@ impl HeadFrame {
     pub fn new(input: &FrameInput, form: &FreeForm) -> Self {
         let [now, before, earlier] = [input.pose, input.before[0], input.before[1]].map(exact);
         Self {
-            turn: if input.pose.rotation == input.before[0].rotation { None } else { turn(before.1, now.1) },
+            turn: if input.pose.rotation == input.before[0].rotation {
+                None
+            } else {
+                axis_and_angle(before.1.inverse() * now.1)
+            },
             weight: weight::on_head(&input.pose, f64::from(form.gravity)),
             way: (input.before != [input.pose; 2]).then(|| HeadWay::new(now, before, earlier)),
         }
@@ -54,12 +59,4 @@ impl HeadWay {
 
 fn exact(pose: Pose) -> (DVec3, DQuat) {
     (pose.position_cm.as_dvec3(), pose.rotation.as_dquat().normalize())
-}
-
-/// The turn from one rotation to another, in the space that both rotate to the world.
-fn turn(before: DQuat, now: DQuat) -> Option<(DVec3, f64)> {
-    let turn = before.inverse() * now;
-    let turn = if turn.w < 0.0 { -turn } else { turn };
-    let sine = turn.xyz().length();
-    (sine > 0.0).then(|| (turn.xyz() / sine, 2.0 * sine.atan2(turn.w)))
 }

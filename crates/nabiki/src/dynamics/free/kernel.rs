@@ -9,6 +9,8 @@
 //! A step goes along the strands to and fro: [`carry`], [`untwist`] and [`bend`] for the joints, the systems of [`solve`](super::solve), and
 //! [`advance`], on which segments are turned.
 
+use glam::Quat;
+
 use super::pulls::{hold, joints, weight};
 use super::rotate::turned;
 use super::segment::FreeSegment;
@@ -111,7 +113,7 @@ impl AirRow {
 /// R_(i-1) of every strand of a block, a quaternion of length about 1: it has carried the segments before this one from
 /// rest to their current directions.
 #[derive(Clone, Copy, Debug)]
-struct FrameRow {
+pub(super) struct FrameRow {
     vector: PointRow,
     scalar: Row,
     /// 2 / its squared length, computed early because the next segment waits for both.
@@ -119,8 +121,26 @@ struct FrameRow {
 }
 
 impl FrameRow {
-    const AT_REST: Self =
+    pub const AT_REST: Self =
         Self { vector: [Row([0.0; LANES]); 3], scalar: Row([1.0; LANES]), over_length: Row([2.0; LANES]) };
+
+    /// Sets that of one strand.
+    pub fn set(&mut self, lane: usize, turn: Quat) {
+        set_lane(&mut self.vector, lane, turn.xyz().to_array());
+        self.scalar.0[lane] = turn.w;
+        self.over_length.0[lane] = 2.0 / turn.length_squared();
+    }
+
+    /// The vectors of all strands rotated.
+    #[inline(always)]
+    pub fn of(&self, vectors: &PointRow) -> PointRow {
+        let (of, vectors, mut there) = (*self, *vectors, ZERO);
+        for lane in 0..LANES {
+            let (u, s, over) = (lane_of(&of.vector, lane), of.scalar.0[lane], of.over_length.0[lane]);
+            set_lane(&mut there, lane, turned(u, s, over, lane_of(&vectors, lane)));
+        }
+        there
+    }
 }
 
 pub(super) static BEYOND: (FreeState, FreeRow, Work) = (
@@ -150,17 +170,19 @@ pub(super) fn next<'a, T>(of: &'a [T], i: usize, beyond: &'a T) -> &'a T {
 }
 
 /// Goes to the tips: positions and velocities of the nodes, where the frames carry the shape at rest, and the first half of the
-/// tridiagonal system of the segments' turns about themselves. `weight`: that at rest, if wanted where the frames carry it.
+/// tridiagonal system of the segments' turns about themselves. `from_rest`: R_0, if skin moves. `weight`: that at rest, if wanted where
+/// the frames carry it.
 #[inline(always)]
 pub(super) fn carry(
     states: &[FreeState],
     rows: &[FreeRow],
     roots: &PointRow,
+    from_rest: Option<&FrameRow>,
     weight: Option<[f32; 3]>,
     work: &mut [Work],
 ) {
-    let (mut end, mut velocity, mut frame) = (*roots, ZERO, FrameRow::AT_REST);
-    let mut carried = rows[0].rest;
+    let (mut end, mut velocity, mut frame) = (*roots, ZERO, from_rest.copied().unwrap_or(FrameRow::AT_REST));
+    let mut carried = from_rest.map_or(rows[0].rest, |turn| turn.of(&rows[0].rest));
     let (mut handed, mut above, mut turned_by) = (NONE, NONE, NONE);
     let torsion = joints::TORSION as f32;
     for (i, ((state, row), work)) in states.iter().zip(rows).zip(work).enumerate() {
@@ -232,16 +254,19 @@ pub(super) fn untwist(work: &mut [Work]) {
     slacken(work);
 }
 
-/// Goes to the tips with the new twists of the joints: s_i, the shear of their moments.
+/// Goes to the tips with the new twists of the joints: s_i, the shear of their moments. `from_rest`: as in [`carry`].
 #[inline(always)]
-pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], work: &mut [Work]) {
+pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], from_rest: Option<&FrameRow>, work: &mut [Work]) {
     let torsion = joints::TORSION as f32;
     let (mut before, mut turned_before) = (ZERO, NONE);
     for (i, (state, row)) in states.iter_mut().zip(rows).enumerate() {
         let (done, work) = work.split_at_mut(i);
         let work = &mut work[0];
         let FreeState { direction, mut twist, .. } = *state;
-        let FreeRow { over_length, rest, bending: bends, hold, up, supports, .. } = *row;
+        let FreeRow { over_length, mut rest, bending: bends, hold, mut up, supports, .. } = *row;
+        if let Some(turn) = from_rest {
+            (rest, up) = (turn.of(&rest), turn.of(&up));
+        }
         let Work { handed, tension: turned_by, carried: at_rest, .. } = *work;
         let mut moment = ZERO;
         for lane in 0..LANES {
@@ -339,14 +364,15 @@ pub(super) fn ends(state: &FreeState, row: &FreeRow, from: &PointRow) -> PointRo
     to
 }
 
-/// Leaves a segment of every strand behind by its share of the head's turn: `axis` of length 1, `angle` in rad.
+/// Leaves a segment of every strand behind by its share of a turn: for a lane an axis, of length 1, and an angle (rad).
 #[inline(always)]
-pub(super) fn stay_behind(state: &mut FreeState, row: &FreeRow, axis: [f32; 3], angle: f32, drag: &Row) {
+pub(super) fn stay_behind(state: &mut FreeState, row: &FreeRow, turn: impl Fn(usize) -> ([f32; 3], f32), drag: &Row) {
     let FreeState { mut direction, mut increment, .. } = *state;
     let (lightness, drag) = (row.lightness, *drag);
     for lane in 0..LANES {
         // Held segments move with the head.
         let share = if lightness.0[lane] > 0.0 { drag.0[lane] } else { 0.0 };
+        let (axis, angle) = turn(lane);
         let (sin, cos) = sin_cos(-0.5 * (angle * share));
         let u = scale(sin, axis);
         let over_length = 2.0 / cos.mul_add(cos, dot(u, u));

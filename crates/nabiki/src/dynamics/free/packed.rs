@@ -15,6 +15,7 @@ use crate::body::{Body, BodyWay, Surface};
 use crate::dynamics::block::Block;
 use crate::dynamics::field_frame::FieldFrame;
 use crate::dynamics::paper::Surroundings;
+use crate::dynamics::ride::SkinStep;
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::stability::Stability;
 use crate::dynamics::state::Identity;
@@ -23,6 +24,7 @@ use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
 use crate::field::Field;
 use crate::free_form::FreeMotion;
+use crate::skin::{SkinFrame, SkinPlace};
 use crate::strands::{Strands, bounds};
 
 /// A mesh feeds many numbers to the hash, and states are compared often: compute it only once.
@@ -46,6 +48,8 @@ pub(super) struct Packed {
     airs: Vec<AirRow>,
     /// For every block, the points by which the head carries its strands: their roots, or the last nodes that a tie holds.
     pub anchors: Vec<PointRow>,
+    /// The places of the skin that carry the strands; empty without skin that moves.
+    places: Vec<SkinPlace>,
     /// How strands modify the wind, block by block; empty if all are alike.
     own: Vec<OwnRow>,
     /// eps_i, where the scene has a pseudo-force.
@@ -54,7 +58,7 @@ pub(super) struct Packed {
     pub kept_from: Vec<KeptFrom>,
     /// Identifies the shapes of the bodies.
     shapes: u64,
-    pub rest: Vec<FreeState>,
+    pub at_rest: Vec<FreeState>,
     pub weight_at_rest: [f32; 3],
     pub most_drag: f32,
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
@@ -89,10 +93,11 @@ impl Packed {
             rows: Vec::new(),
             airs: Vec::new(),
             anchors: Vec::new(),
+            places: Vec::new(),
             own: Vec::new(),
             kept_from: Vec::new(),
             shapes: 0,
-            rest: Vec::new(),
+            at_rest: Vec::new(),
             weight_at_rest: weight::on_head(&free.rest_pose, f64::from(free.form.gravity)).as_vec3().to_array(),
             most_drag: free.form.most_drag(),
             center: 0.5 * (low + high),
@@ -106,6 +111,9 @@ impl Packed {
             packed.airs.truncate(1);
         }
         packed.take_rest();
+        if let Some(skin) = &dynamics.skin {
+            packed.places = skin.places(strands.iter().map(|strand| strand[0]));
+        }
         match known {
             Some(known) if known.free.bodies == free.bodies && known.free.rest_pose == free.rest_pose => {
                 (packed.kept_from, packed.shapes) = (known.kept_from.clone(), known.shapes);
@@ -128,7 +136,7 @@ impl Packed {
         let rows = block.rows();
         self.rows.resize(rows.end, FreeRow::default());
         self.airs.resize(rows.end, AirRow::of(&self.free.form, self.dynamics.motion.slow.into()));
-        self.rest.resize(rows.end, FreeState::default());
+        self.at_rest.resize(rows.end, FreeState::default());
         if let Some((_, eps)) = &mut self.weakening {
             eps.resize(rows.end, Row::default());
         }
@@ -143,7 +151,7 @@ impl Packed {
             for (row, segment) in rows.clone().zip(segments) {
                 self.rows[row].set(lane, segment);
                 self.airs[row].set(lane, segment);
-                self.rest[row].direction = self.rows[row].rest;
+                self.at_rest[row].direction = self.rows[row].rest;
                 if let Some((_, eps)) = &mut self.weakening {
                     eps[row].0[lane] = segment.shape.eps() as f32;
                 }
@@ -156,7 +164,7 @@ impl Packed {
 
     /// Stores the rounding error that the solve leaves at rest.
     fn take_rest(&mut self) {
-        let mut states = self.rest.clone();
+        let mut states = self.at_rest.clone();
         let mut none = vec![Vec3::ZERO; self.blocks.iter().map(Block::point_count).sum()];
         sweep(&*self, &[Plan::Residual], VectorWidth::default(), &mut states, Pages::Last(&mut none));
         for (row, state) in self.rows.iter_mut().zip(&states) {
@@ -172,7 +180,7 @@ impl Packed {
         for block in &self.blocks {
             let mut from = block.roots;
             for at in block.rows() {
-                let to = ends(&self.rest[at], &self.rows[at], &from);
+                let to = ends(&self.at_rest[at], &self.rows[at], &from);
                 for lane in 0..LANES {
                     let at_rest = body_from_head.transform_point3(Vec3::from(lane_of(&to, lane)));
                     let (surface, clearance) = body.kept_from(at_rest);
@@ -232,12 +240,12 @@ impl Packed {
 
     /// Room for the state of every segment.
     pub fn states(&self) -> Vec<FreeState> {
-        self.rest.clone()
+        self.at_rest.clone()
     }
 
     /// Puts held segments to rest: tied hair may have got here under another tie.
     pub fn hold(&self, states: &mut [FreeState]) {
-        for ((state, row), rest) in states.iter_mut().zip(&self.rows).zip(&self.rest) {
+        for ((state, row), rest) in states.iter_mut().zip(&self.rows).zip(&self.at_rest) {
             for lane in (0..LANES).filter(|&lane| row.lightness.0[lane] == 0.0) {
                 set_lane(&mut state.direction, lane, lane_of(&rest.direction, lane));
                 set_lane(&mut state.increment, lane, lane_of(&rest.increment, lane));
@@ -256,9 +264,15 @@ impl Packed {
         }
     }
 
+    /// Puts every block to rest, as the skin is in frame 0.
+    pub fn rest(&self) -> Plan<'_> {
+        Plan::Rest(self.dynamics.skin.as_ref().map(|skin| skin.at(0)))
+    }
+
     /// The effect of a frame on every block. `crowd`: the carriers' grid of the frame before.
-    pub fn plan<'a>(&self, input: &FrameInput<'a>, bodies: &'a [PlacedBody], crowd: Option<&'a Crowd>) -> Plan<'a> {
+    pub fn plan<'a>(&'a self, input: &FrameInput<'a>, bodies: &'a [PlacedBody], crowd: Option<&'a Crowd>) -> Plan<'a> {
         let head = HeadFrame::new(input, &self.free.form);
+        let skin = SkinStep::new(&self.dynamics, input, &head);
         let field = FieldFrame::new(input, self.dynamics.motion.force_space);
         let uniform = field.uniform();
         let everywhere = uniform.filter(|_| crowd.is_none() && self.weakening.is_none());
@@ -270,6 +284,7 @@ impl Packed {
             turn: head.turn.map(|(axis, angle)| (axis.as_vec3().to_array(), angle as f32)),
             weight: head.weight.as_vec3().to_array(),
             way: head.way.map(RootWay::from),
+            skin,
             steps: self.free.form.steps(),
             bodies,
             crowd,
@@ -305,8 +320,8 @@ pub(super) struct KeptFrom {
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is one for each frame")]
 pub(super) enum Plan<'a> {
-    /// Hair is put back to rest.
-    Rest,
+    /// Hair is put back to rest, on skin of this shape.
+    Rest(Option<&'a SkinFrame>),
     /// Hair moves.
     Step(Step<'a>),
     /// Hair stays; the points are what the increments alone move them by (cm per frame).
@@ -331,6 +346,8 @@ pub(super) struct Step<'a> {
     pub weight: [f32; 3],
     /// How the head carries the roots; none if it does not move.
     pub way: Option<RootWay>,
+    /// None without skin that carries roots.
+    pub skin: Option<SkinStep<'a>>,
     /// Number of steps in the frame.
     pub steps: u32,
     /// All bodies at the end of the first step, then at the end of the next, and so on.
@@ -351,6 +368,13 @@ impl Packed {
     #[inline(always)]
     pub fn own(&self, block: usize) -> Option<&OwnRow> {
         self.own.get(block)
+    }
+
+    /// The places of the skin that carry the strands of a block; none without skin that moves.
+    #[inline(always)]
+    pub fn places(&self, block: &Block) -> &[SkinPlace] {
+        let first = (block.first_strand as usize).min(self.places.len());
+        &self.places[first..self.places.len().min(first + LANES)]
     }
 
     #[inline(always)]

@@ -3,8 +3,9 @@
 use glam::Vec3;
 
 use super::contact::{ANSWER, Going, Moving, PlacedBody, ROUNDS, Touch, gap};
-use super::kernel::{AirRow, FreeRow, FreeState, advance, ends};
+use super::kernel::{AirRow, FreeRow, FreeState, advance, ends, stay_behind};
 use super::packed::{Packed, Step};
+use super::ride_row::RideRow;
 use super::work::Work;
 use crate::body::Shape;
 use crate::dynamics::block::{Block, Pass};
@@ -24,6 +25,8 @@ pub(super) struct Blown<'a, 's> {
     pub block: &'a Block,
     /// Its number.
     pub number: usize,
+    /// How skin carries it; none without skin that moves.
+    pub ride: Option<&'a RideRow>,
 }
 
 /// The same in one of the steps of the frame.
@@ -41,6 +44,65 @@ pub(super) struct Stepped<'a, 's> {
 impl<'a, 's> Blown<'a, 's> {
     fn rows(&self) -> &'a [FreeRow] {
         &self.packed.rows[self.block.rows()]
+    }
+
+    /// Whether `work.shifted` counts.
+    pub fn is_shifted(&self) -> bool {
+        self.ride.is_some() || self.step.turn.is_some()
+    }
+
+    /// Where the roots are in this frame.
+    pub fn roots(&self) -> PointRow {
+        self.ride.map_or(self.block.roots, |ride| ride.roots)
+    }
+
+    /// Takes hair along with its skin, and notes how far.
+    #[inline(always)]
+    pub fn carry(&self, ride: &RideRow, states: &mut [FreeState], work: &mut [Work]) {
+        let before = states.iter().zip(self.rows()).scan(ride.roots_before, |end, (state, row)| {
+            *end = ends(state, row, end);
+            Some(*end)
+        });
+        before.zip(&mut *work).for_each(|(end, work)| work.shifted = end);
+        let mut end = ride.roots;
+        for ((state, row), work) in states.iter_mut().zip(self.rows()).zip(work) {
+            ride.carry(state, row);
+            end = ends(state, row, &end);
+            shift(state, &end, work);
+        }
+    }
+
+    /// Leaves hair behind by its share of a turn in a step, and notes how far; `more`: in addition to what is noted.
+    #[inline(always)]
+    pub fn stay_behind(
+        &self,
+        states: &mut [FreeState],
+        turn: impl Fn(usize) -> ([f32; 3], f32),
+        meets_bodies: bool,
+        more: bool,
+        work: &mut [Work],
+    ) {
+        let (rows, first, roots) = (self.rows(), self.block.rows().start, self.roots());
+        let (mut before, mut end) = (roots, roots);
+        let mut ways = Row::default();
+        for lane in 0..LANES {
+            ways.0[lane] = turn(lane).1.abs() * self.packed.longest * self.packed.most_drag;
+        }
+        for (i, ((state, row), work)) in states.iter_mut().zip(rows).zip(work).enumerate() {
+            before = ends(state, row, &before);
+            stay_behind(state, row, &turn, &self.packed.air(first + i).drag);
+            if meets_bodies {
+                end = ends(state, row, &end);
+                for lane in 0..LANES {
+                    let mut way = subtract(lane_of(&end, lane), lane_of(&before, lane));
+                    if more {
+                        way = add(way, lane_of(&work.shifted, lane));
+                    }
+                    set_lane(&mut work.shifted, lane, way);
+                    state.gap.0[lane] -= ways.0[lane];
+                }
+            }
+        }
     }
 
     /// Evaluates what acts once a frame: the field and the neighbours.
@@ -61,7 +123,7 @@ impl<'a, 's> Blown<'a, 's> {
             }
             return;
         }
-        let mut end = self.block.roots;
+        let mut end = self.roots();
         for ((state, row), work) in states.iter().zip(rows).zip(&mut *work) {
             end = ends(state, row, &end);
             work.end = end;
@@ -103,6 +165,18 @@ impl<'a, 's> Blown<'a, 's> {
     }
 }
 
+/// Replaces where nodes were before, in `work`, by how far they have moved to `end`, and notes that a body may be nearer.
+#[inline(always)]
+fn shift(state: &mut FreeState, end: &PointRow, work: &mut Work) {
+    let (before, end, mut gap) = (work.shifted, *end, state.gap);
+    for lane in 0..LANES {
+        let way = subtract(lane_of(&end, lane), lane_of(&before, lane));
+        gap.0[lane] -= dot(way, way).sqrt();
+        set_lane(&mut work.shifted, lane, way);
+    }
+    state.gap = gap;
+}
+
 /// The acceleration of the nodes by forces.
 #[inline(always)]
 fn pushed(push: &Row, forces: &PointRow) -> PointRow {
@@ -117,21 +191,24 @@ impl<'a, 's> Stepped<'a, 's> {
     /// All acceleration of the nodes except by the chain.
     #[inline(always)]
     pub fn push(&self, states: &mut [FreeState], work: &mut [Work]) {
-        let Blown { packed, step, block, number } = self.of;
+        let Blown { packed, step, block, number, .. } = self.of;
         let (rows, first) = (self.of.rows(), block.rows().start);
         // Of the points by which the head carries the strands.
         let (mut velocity, mut acceleration) = (PointRow::default(), PointRow::default());
-        if let Some(way) = &step.way {
+        if let Some(ride) = self.of.ride {
+            (velocity, acceleration) = (ride.velocity, ride.acceleration);
+        } else if let Some(way) = &step.way {
             for lane in 0..LANES {
                 let root = lane_of(&packed.anchors[number], lane);
                 set_lane(&mut velocity, lane, add(rotate(&way.velocity.0, root), way.velocity.1));
                 set_lane(&mut acceleration, lane, add(rotate(&way.acceleration.0, root), way.acceleration.1));
             }
         }
+        let is_carried = self.of.ride.is_some() || step.way.is_some();
         for (i, ((state, row), work)) in states.iter_mut().zip(rows).zip(work).enumerate() {
             prefetch_ahead(row, AHEAD);
             let mut other = work.blown;
-            if step.way.is_some() {
+            if is_carried {
                 let AirRow { air, drag } = *packed.air(first + i);
                 for lane in 0..LANES {
                     let (velocity, acceleration) = (lane_of(&velocity, lane), lane_of(&acceleration, lane));
@@ -210,7 +287,7 @@ impl<'a, 's> Stepped<'a, 's> {
         let of = |row: &PointRow| Vec3::from(lane_of(row, lane));
         let moving = Moving {
             at: of(&work.end),
-            shifted: if self.of.step.turn.is_some() { of(&work.shifted) } else { Vec3::ZERO },
+            shifted: if self.of.is_shifted() { of(&work.shifted) } else { Vec3::ZERO },
             velocity: of(&work.velocity),
             acceleration: of(net),
             pressed: 0.0,
@@ -386,11 +463,11 @@ impl Go<'_, '_> {
         to: &mut PointRow,
         lane: usize,
     ) {
-        let Stepped { of: Blown { packed, step, .. }, bodies, h, .. } = self.stepped;
+        let Stepped { of: Blown { packed, .. }, bodies, h, .. } = self.stepped;
         let at = |row: &PointRow| Vec3::from(lane_of(row, lane));
         let mut going = Going { direction: at(&state.direction), increment: h * at(&state.increment) };
         let (from, length, was) = (at(from), row.length.0[lane], at(was));
-        let left_behind = if step.turn.is_some() { at(&self.work[self.i].shifted) } else { Vec3::ZERO };
+        let left_behind = if self.stepped.of.is_shifted() { at(&self.work[self.i].shifted) } else { Vec3::ZERO };
         let carried = h * at(&self.velocity) + left_behind;
         let mut stopped = false;
         let mut inward = 0.0_f32;

@@ -164,7 +164,7 @@ impl Runner {
 
     /// Puts the hair back to rest.
     pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
-        sweep(&*self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
+        sweep(&*self.packed, &[self.packed.rest()], width, &mut self.states, Pages::Last(page));
         if let Some(carriers) = &mut self.carriers {
             carriers.rewind(width);
         }
@@ -215,7 +215,7 @@ impl Runner {
         };
         let steps = inputs.iter().zip(&bodies).enumerate();
         let steps = steps.map(|(n, (input, bodies))| packed.plan(input, bodies, crowds.get(n)));
-        let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();
+        let plans: Vec<Plan> = from_rest.then(|| packed.rest()).into_iter().chain(steps).collect();
         sweep(&**packed, &plans, width, states, pages);
     }
 }
@@ -245,7 +245,7 @@ struct CarrierHair {
 impl Carriers {
     fn new(packed: Packed, neighbours: &crate::free_form::Neighbours) -> Result<Self, SettingError> {
         let (mut states, mut points) = (packed.states(), neighbours.carriers.points().to_vec());
-        sweep(&packed, &[Plan::Rest], VectorWidth::default(), &mut states, Pages::Last(&mut points));
+        sweep(&packed, &[packed.rest()], VectorWidth::default(), &mut states, Pages::Last(&mut points));
         let crowd = Crowd::new(neighbours, packed.dynamics.motion.slow, &points)?;
         let velocities = vec![Vec3::ZERO; points.len()];
         let strands = neighbours.carriers.clone();
@@ -256,7 +256,7 @@ impl Carriers {
 
     fn rewind(&mut self, width: VectorWidth) {
         let Self { hair, crowd, next } = self;
-        sweep(&*hair.packed, &[Plan::Rest], width, &mut hair.states, Pages::Last(&mut hair.points));
+        sweep(&*hair.packed, &[hair.packed.rest()], width, &mut hair.states, Pages::Last(&mut hair.points));
         crowd.take(&hair.crowd_at_rest);
         next.take(&hair.crowd_at_rest);
     }

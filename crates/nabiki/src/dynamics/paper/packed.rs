@@ -13,13 +13,15 @@ use super::surroundings::Surroundings;
 use crate::disturbance::Part;
 use crate::dynamics::block::{Block, Pass};
 use crate::dynamics::gain::{SegmentShape, segment_shapes};
-use crate::dynamics::row::{LANES, PointRow, Row};
+use crate::dynamics::ride::skin_frames;
+use crate::dynamics::row::{LANES, PointRow, Row, set_lane};
 use crate::dynamics::stability::Stability;
 use crate::dynamics::state::Identity;
 use crate::dynamics::sweep::Swept;
 use crate::dynamics::{Dynamics, FrameInput};
 use crate::error::SettingError;
 use crate::field::Field;
+use crate::skin::{SkinFrame, SkinPlace};
 use crate::strands::Strands;
 
 /// Everything about hair that does not change from frame to frame.
@@ -33,7 +35,9 @@ pub(super) struct Packed {
     blocks: Vec<Block>,
     shapes: Vec<ShapeRow>,
     along: Vec<Row>,
-    rest: Vec<SegmentState>,
+    /// The places of the skin that carry the strands; empty without skin that moves.
+    places: Vec<SkinPlace>,
+    at_rest: Vec<SegmentState>,
 }
 
 impl Packed {
@@ -53,10 +57,14 @@ impl Packed {
             blocks: Vec::with_capacity(strands.len().div_ceil(LANES)),
             shapes: Vec::new(),
             along: Vec::new(),
-            rest: Vec::new(),
+            places: Vec::new(),
+            at_rest: Vec::new(),
         };
         for first in (0..strands.len()).step_by(LANES) {
             packed.pack(strands, first..strands.len().min(first + LANES), &axis)?;
+        }
+        if let Some(skin) = &dynamics.skin {
+            packed.places = skin.places(strands.iter().map(|strand| strand[0]));
         }
         Ok(packed)
     }
@@ -69,15 +77,15 @@ impl Packed {
         let rows = block.rows();
         self.shapes.resize(rows.end, ShapeRow::default());
         self.along.resize(rows.end, Row::default());
-        self.rest.resize(rows.end, SegmentState::default());
+        self.at_rest.resize(rows.end, SegmentState::default());
         for (lane, (s, shapes)) in range.zip(&shapes).enumerate() {
             for (row, (shape, w)) in rows.clone().zip(shapes.iter().zip(strands.strand(s).windows(2))) {
                 self.shapes[row].set(lane, shape);
                 self.along[row].0[lane] = shape.along as f32;
                 let direction = axis.polar_from_head() * (w[1].as_dvec3() - w[0].as_dvec3());
                 let [theta, phi] = direction_turns(direction);
-                self.rest[row].theta.set(lane, theta.map(|value| value as f32));
-                self.rest[row].phi.set(lane, phi.map(|value| value as f32));
+                self.at_rest[row].theta.set(lane, theta.map(|value| value as f32));
+                self.at_rest[row].phi.set(lane, phi.map(|value| value as f32));
             }
         }
         self.blocks.push(block);
@@ -89,7 +97,7 @@ impl Packed {
         let mut identity = Identity::new();
         self.blocks.iter().for_each(|block| block.identify(&mut identity));
         self.shapes.iter().for_each(|shape| identity.numbers(&shape.length.0));
-        self.rest.iter().flat_map(SegmentState::rows).for_each(|row| identity.numbers(&row.0));
+        self.at_rest.iter().flat_map(SegmentState::rows).for_each(|row| identity.numbers(&row.0));
         identity.get()
     }
 
@@ -109,24 +117,42 @@ impl Packed {
 
     /// Room for the state of every segment.
     pub fn states(&self) -> Vec<SegmentState> {
-        self.rest.clone()
+        self.at_rest.clone()
     }
 
     /// The effect of a frame on every block.
-    pub fn plan<'a>(&self, input: &FrameInput<'a>) -> Plan<'a> {
+    pub fn plan<'a>(&'a self, input: &FrameInput<'a>) -> Plan<'a> {
         let source = AnySource::new(input, self.dynamics.motion.force_space, &self.surroundings);
         let disturbance = self.dynamics.disturbance.as_ref().and_then(|d| d.part(input.frame));
-        Plan::Step { source, disturbance }
+        let skin = skin_frames(&self.dynamics, input).map(|[now, before, _]| [now, before]);
+        Plan::Step { source, disturbance, skin }
+    }
+
+    /// Puts every block to rest, as the skin is in frame 0.
+    pub fn rest(&self) -> Plan<'_> {
+        Plan::Rest(self.dynamics.skin.as_ref().map(|skin| skin.at(0)))
+    }
+
+    /// The roots of a block on skin of this shape.
+    fn roots(&self, block: &Block, skin: Option<&SkinFrame>) -> PointRow {
+        let mut roots = block.roots;
+        if let Some(skin) = skin {
+            let places = self.places.iter().skip(block.first_strand as usize).take(LANES);
+            places
+                .enumerate()
+                .for_each(|(lane, place)| set_lane(&mut roots, lane, place.root(skin).as_vec3().to_array()));
+        }
+        roots
     }
 }
 
 /// The mode of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Plan<'a> {
-    /// Hair is put back to rest.
-    Rest,
-    /// Hair moves.
-    Step { source: AnySource<'a>, disturbance: Option<Part> },
+    /// Hair is put back to rest, on skin of this shape.
+    Rest(Option<&'a SkinFrame>),
+    /// Hair moves, on skin of these shapes in this frame and in the frame before.
+    Step { source: AnySource<'a>, disturbance: Option<Part>, skin: Option<[&'a SkinFrame; 2]> },
 }
 
 impl Swept for Packed {
@@ -158,41 +184,43 @@ impl Packed {
         mut page: Option<&mut [Vec3]>,
     ) {
         match plan {
-            Plan::Rest => {
-                states.copy_from_slice(&self.rest[block.rows()]);
+            Plan::Rest(skin) => {
+                states.copy_from_slice(&self.at_rest[block.rows()]);
                 if let Some(page) = page {
-                    self.place::<TILTED>(block, states, page);
+                    self.place::<TILTED>(block, &self.roots(block, *skin), states, page);
                 }
             }
-            Plan::Step { source, disturbance } => {
+            Plan::Step { source, disturbance, skin } => {
+                let roots = [0, 1].map(|back| self.roots(block, skin.map(|frames| frames[back])));
                 let undisturbed = page.as_deref_mut().filter(|_| disturbance.is_none());
                 match source {
-                    AnySource::Uniform(source) => self.step::<TILTED>(block, source, states, undisturbed),
-                    AnySource::Local(source) => self.step::<TILTED>(block, source, states, undisturbed),
+                    AnySource::Uniform(source) => self.step::<TILTED>(block, &roots, source, states, undisturbed),
+                    AnySource::Local(source) => self.step::<TILTED>(block, &roots, source, states, undisturbed),
                 }
                 if let Some(part) = disturbance {
                     self.disturb(block, part, states);
                     if let Some(page) = page {
-                        self.place::<TILTED>(block, states, page);
+                        self.place::<TILTED>(block, &roots[0], states, page);
                     }
                 }
             }
         }
     }
 
-    /// Moves a block by one frame, and writes its points where the caller wants them.
+    /// Moves a block by one frame, and writes its points where the caller wants them. `roots`: of this frame and of the frame before.
     #[inline(always)]
     fn step<const TILTED: bool>(
         &self,
         block: &Block,
+        roots: &[PointRow; 2],
         source: &impl ForceSource,
         states: &mut [SegmentState],
         page: Option<&mut [Vec3]>,
     ) {
         // Local copies, so that they need not be read again at every segment.
-        let (surroundings, source, before) = (self.surroundings, *source, block.roots);
+        let (surroundings, source, before) = (self.surroundings, *source, roots[1]);
         block.walk(
-            &block.roots,
+            &roots[0],
             states,
             &self.shapes[block.rows()],
             page,
@@ -215,9 +243,15 @@ impl Packed {
 
     /// Writes the points of the current angles.
     #[inline(always)]
-    fn place<const TILTED: bool>(&self, block: &Block, states: &mut [SegmentState], page: &mut [Vec3]) {
+    fn place<const TILTED: bool>(
+        &self,
+        block: &Block,
+        roots: &PointRow,
+        states: &mut [SegmentState],
+        page: &mut [Vec3],
+    ) {
         let surroundings = &self.surroundings;
-        block.walk(&block.roots, states, &self.shapes[block.rows()], Some(page), Place::<TILTED> { surroundings });
+        block.walk(roots, states, &self.shapes[block.rows()], Some(page), Place::<TILTED> { surroundings });
     }
 }
 

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::polar::PolarAxis;
 use crate::dynamics::air::Breeze;
 use crate::dynamics::reference::publish;
+use crate::dynamics::ride::skin_frames;
 use crate::dynamics::stability::check_field;
 use crate::dynamics::{Dynamics, FrameInput, Stepper};
 use crate::error::SettingError;
@@ -60,9 +61,10 @@ impl Stepper for Reference {
         let air = Breeze { input, space: self.dynamics.motion.force_space };
         let disturbance = self.dynamics.disturbance.as_ref();
         let part = disturbance.and_then(|disturbance| Some((disturbance, disturbance.part(input.frame)?)));
+        let skin = skin_frames(&self.dynamics, input).map(|[now, ..]| now);
         for (strand, &id) in self.hair.iter_mut().zip(&self.ids) {
             let disturbed = part.as_ref().map(|(disturbance, part)| disturbance.turn(id, part).map(f64::from));
-            strand.step(&self.common, &air, disturbed);
+            strand.step(&self.common, &air, disturbed, skin);
         }
         self.frame = input.frame;
         self.publish();

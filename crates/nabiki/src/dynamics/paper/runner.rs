@@ -78,7 +78,7 @@ impl Runner {
 
     /// Puts the hair back to rest.
     pub fn rewind(&mut self, width: VectorWidth, page: &mut [Vec3]) {
-        sweep(&*self.packed, &[Plan::Rest], width, &mut self.states, Pages::Last(page));
+        sweep(&*self.packed, &[self.packed.rest()], width, &mut self.states, Pages::Last(page));
     }
 
     /// Moves the hair by one frame.
@@ -90,7 +90,7 @@ impl Runner {
     /// Moves the hair through many frames, the first of them rest if `from_rest`.
     pub fn run(&mut self, from_rest: bool, inputs: &[FrameInput], width: VectorWidth, pages: Pages) {
         let steps = inputs.iter().map(|input| self.packed.plan(input));
-        let plans: Vec<Plan> = from_rest.then_some(Plan::Rest).into_iter().chain(steps).collect();
+        let plans: Vec<Plan> = from_rest.then(|| self.packed.rest()).into_iter().chain(steps).collect();
         sweep(&*self.packed, &plans, width, &mut self.states, pages);
     }
 }

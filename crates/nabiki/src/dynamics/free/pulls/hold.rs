@@ -1,7 +1,5 @@
 //! Hold: the moment C (d x r), which turns a segment toward its groomed direction on the head.
 
-use glam::DVec3;
-
 use crate::scalar::{Scalar, Vector};
 use crate::vector::{cross, scale, subtract};
 
@@ -12,8 +10,8 @@ pub fn moment_per_radian(push: f64, hold: f64, beyond: f64, length: f64) -> f64 
 }
 
 #[inline(always)]
-pub fn moment<S: Scalar>(hold: f64, rest: DVec3, d: Vector<S>) -> Vector<S> {
-    d.cross(rest.into()).times(hold)
+pub fn moment<S: Scalar>(hold: f64, rest: Vector<S>, d: Vector<S>) -> Vector<S> {
+    d.cross(rest).times(hold)
 }
 
 /// The same for one lane, from the difference, which is exactly 0 at rest.

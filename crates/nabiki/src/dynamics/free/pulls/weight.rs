@@ -45,8 +45,7 @@ pub fn support(rest: DVec3, hangs: DVec3) -> (DVec3, f64) {
 
 /// The moment that supports it.
 #[inline(always)]
-pub fn moment<S: Scalar>(up: DVec3, supports: f64, d: Vector<S>) -> Vector<S> {
-    let up = Vector::from(up);
+pub fn moment<S: Scalar>(up: Vector<S>, supports: f64, d: Vector<S>) -> Vector<S> {
     let along = d.dot(up);
     let across = S::from(1.0) - along * along;
     d.cross(up) * (across * across).times(supports)
@@ -80,7 +79,7 @@ mod tests {
             let axis = DVec3::new(of(2.9), of(3.1), of(3.7)).normalize();
             let turned = |by: f64| DQuat::from_axis_angle(axis, by) * d;
             let falls = (potential(turned(-1e-4)) - potential(turned(1e-4))) / 2e-4;
-            let works = moment::<f64>(up, supports, d.into()).value().dot(axis);
+            let works = moment::<f64>(up.into(), supports, d.into()).value().dot(axis);
             // Differences leave out a sixth of their square, times third derivatives of up to 7 S.
             assert!((falls - works).abs() < 2e-8 * supports, "{d}: {falls}, not {works}");
         }
@@ -93,7 +92,7 @@ mod tests {
             [(DVec3::X, -DVec3::Y), (DVec3::new(0.6, -0.8, 0.0), DVec3::new(0.0, -2.0, 0.0)), (-DVec3::Y, -DVec3::Y)]
         {
             let (up, supports) = support(rest, hangs);
-            let left = rest.cross(hangs) + moment::<f64>(up, supports, rest.into()).value();
+            let left = rest.cross(hangs) + moment::<f64>(up.into(), supports, rest.into()).value();
             assert!(left.length() < 1e-14, "{rest}: {left}");
         }
     }

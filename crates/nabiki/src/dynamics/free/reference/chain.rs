@@ -1,6 +1,6 @@
 //! The chain: tensions that keep the segments' lengths, and the implicit step. Equations in docs/motion-forms.md.
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 
 use super::strand::Segment;
 use crate::dynamics::free::pulls::{hold, joints, weight};
@@ -34,6 +34,8 @@ pub struct Chain<S> {
     pub pushed: Vec<Vector<S>>,
     /// beta_i: the share of a node's speed that air and neighbours take (1 per frame).
     pub drag: Vec<S>,
+    /// R_0, the skin's turn from rest; none on skin that does not move.
+    pub from_rest: Option<Turn<S>>,
     /// R_(i-1), which has carried the segments before this one from rest to their current directions.
     pub frames: Vec<Turn<S>>,
     /// Velocities of the nodes (cm per frame), the root's first.
@@ -61,6 +63,7 @@ impl<S: Scalar> Chain<S> {
         let (zero, vector, none) = (S::from(0.0), Vector::zero(), Turn::from(DQuat::IDENTITY));
         Self {
             pushed: vec![vector; segments],
+            from_rest: None,
             drag: vec![zero; segments],
             frames: vec![none; segments],
             velocities: vec![vector; segments + 1],
@@ -83,7 +86,7 @@ impl<S: Scalar> Chain<S> {
     #[inline(always)]
     pub fn bend(&mut self, segments: &mut [Segment<S>]) {
         self.answers.fill(Vector::zero());
-        let mut frame = Turn::from(DQuat::IDENTITY);
+        let mut frame = self.from_rest.unwrap_or_else(|| DQuat::IDENTITY.into());
         for (i, segment) in segments.iter().enumerate() {
             let (d, carried) = (segment.direction, frame.of_known(segment.moved_by.rest));
             (self.frames[i], self.carried[i], self.bending[i]) = (frame, carried, segment.bending);
@@ -152,6 +155,7 @@ impl<S: Scalar> Chain<S> {
         // s_i, the shear of the joints' moments.
         for (i, segment) in segments.iter().enumerate() {
             let (FreeSegment { shape, hold, rest, up, supports, .. }, d) = (segment.moved_by, segment.direction);
+            let [rest, up] = [rest, up].map(|v| self.turned_from_rest(v));
             let on_head = hold::moment(hold, rest, d) + weight::moment(up, supports, d);
             let moment = self.moments[i] - self.moments[i + 1] + on_head;
             self.forces[i] = moment.cross(d).times(1.0 / shape.length);
@@ -177,6 +181,12 @@ impl<S: Scalar> Chain<S> {
             before = node;
         }
         &mut self.driven
+    }
+
+    /// Where the skin has turned a direction of the hair at rest.
+    #[inline(always)]
+    pub fn turned_from_rest(&self, v: DVec3) -> Vector<S> {
+        self.from_rest.map_or_else(|| v.into(), |turn| turn.of_known(v))
     }
 
     /// The acceleration of a node by the forces on both sides of it.

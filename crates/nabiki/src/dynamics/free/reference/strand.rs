@@ -12,10 +12,12 @@ use crate::dynamics::free::grid::Crowd;
 use crate::dynamics::free::pulls::{neighbours, weight};
 use crate::dynamics::free::segment::{FreeSegment, free_segments};
 use crate::dynamics::free::{ANSWER, ROUNDS};
+use crate::dynamics::ride::Ride;
 use crate::error::SettingError;
 use crate::free_form::FreeMotion;
 use crate::locks::Own;
 use crate::scalar::{Scalar, Turn, Vector};
+use crate::skin::{SkinFrame, SkinPlace};
 
 /// A strand at some frame.
 #[derive(Clone, Debug)]
@@ -38,6 +40,12 @@ pub(in crate::dynamics) struct Strand<S> {
     anchor: usize,
     /// How it differs from the settings.
     own: Own,
+    /// The place of the skin that carries its root, and that point of it at rest.
+    on_skin: Option<(SkinPlace, DVec3)>,
+    /// How that place carries it in this frame.
+    ride: Option<Ride>,
+    /// Whether a step has shifted its points.
+    is_shifted: bool,
 }
 
 /// One segment: its direction d at frame n and its increment w (rad a frame), normal to d; both in head space.
@@ -133,12 +141,29 @@ impl<S: Scalar> Strand<S> {
         let chain = Chain::new(segments.len());
         let (clear, meets) = (vec![S::from(f64::INFINITY); segments.len()], Vec::new());
         let (blown, residual) = (none.clone(), none);
-        let mut strand =
-            Self { segments, chain, blown, residual, positions, shifted, clear, kept_from: meets, anchor, own };
+        let place = dynamics.skin.as_ref().map(|skin| skin.place(strand[0]));
+        let mut strand = Self {
+            segments,
+            chain,
+            blown,
+            residual,
+            positions,
+            shifted,
+            clear,
+            kept_from: meets,
+            anchor,
+            own,
+            on_skin: place.map(|place| (place, strand[anchor].as_dvec3())),
+            ride: None,
+            is_shifted: false,
+        };
         strand.place();
         let at_rest: Vec<DVec3> = strand.positions.iter().map(|p| p.value()).collect();
         strand.kept_from = free.bodies.iter().map(|body| kept_from(body, &free.rest_pose, &at_rest)).collect();
         strand.take_rest(free);
+        if let Some(skin) = &dynamics.skin {
+            strand.rest_on(skin.at(0));
+        }
         Ok(strand)
     }
 
@@ -177,6 +202,9 @@ impl<S: Scalar> Strand<S> {
             kept_from: known.kept_from.clone(),
             anchor: known.anchor,
             own: known.own,
+            on_skin: known.on_skin,
+            ride: None,
+            is_shifted: false,
         }
     }
 
@@ -197,13 +225,21 @@ impl<S: Scalar> Strand<S> {
     /// Moves it by one frame. `crowd`: the neighbours' grid of the frame before.
     #[inline(always)]
     pub fn step(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
+        let mut rides = self.ride(common);
         self.blow(common, air, crowd);
         let share = 1.0 / common.bodies.len() as f64;
+        let turn = self.ride.map_or(common.head.turn, |ride| ride.turn);
         for bodies in &common.bodies {
-            if let Some((axis, angle)) = common.head.turn {
-                self.segments.iter_mut().for_each(|segment| segment.stay_behind(axis, angle, share));
+            self.is_shifted = rides || turn.is_some();
+            if self.is_shifted && !rides {
                 self.shifted.copy_from_slice(&self.positions);
+            }
+            rides = false;
+            if let Some((axis, angle)) = turn {
+                self.segments.iter_mut().for_each(|segment| segment.stay_behind(axis, angle, share));
                 self.place();
+            }
+            if self.is_shifted {
                 for (shifted, p) in self.shifted.iter_mut().zip(&self.positions) {
                     *shifted = *p - *shifted;
                 }
@@ -218,8 +254,41 @@ impl<S: Scalar> Strand<S> {
                     self.solve(share, true);
                 }
             }
-            self.go(common, bodies, share);
+            self.go(bodies, share);
         }
+    }
+
+    /// Takes it along with its skin, and says whether it has one.
+    #[inline(always)]
+    fn ride(&mut self, common: &Common) -> bool {
+        let carrier = self.on_skin.as_ref().zip(common.skin.as_ref());
+        self.ride = carrier.map(|((place, anchor), skin)| skin.ride(place, *anchor));
+        let Some(ride) = self.ride else { return false };
+        self.shifted.copy_from_slice(&self.positions);
+        self.chain.from_rest = Some(ride.from_rest.into());
+        let carried = Turn::from(ride.carried);
+        for segment in &mut self.segments {
+            if segment.moved_by.lightness == 0.0 {
+                segment.direction = self.chain.turned_from_rest(segment.moved_by.rest);
+            } else if ride.carried != DQuat::IDENTITY {
+                segment.direction = carried.of(segment.direction);
+                segment.increment = carried.of(segment.increment);
+            }
+        }
+        self.positions[0] = ride.root.into();
+        self.place();
+        true
+    }
+
+    /// Puts it to rest on skin of this shape.
+    fn rest_on(&mut self, skin: &SkinFrame) {
+        let Some((place, _)) = &self.on_skin else { return };
+        let turn = place.turn(skin);
+        self.positions[0] = place.root(skin).into();
+        if turn != DQuat::IDENTITY {
+            self.segments.iter_mut().for_each(|segment| segment.direction = (turn * segment.moved_by.rest).into());
+        }
+        self.place();
     }
 
     /// Finds the tensions, and the increments at the end of a step of `h` frames.
@@ -256,9 +325,10 @@ impl<S: Scalar> Strand<S> {
     fn push(&mut self, common: &Common, bodies: &[PlacedBody]) {
         let head = &common.head;
         let root = self.positions[self.anchor];
-        let [velocity, acceleration] = match &head.way {
-            Some(way) => [root.taken_by(&way.velocity), root.taken_by(&way.acceleration)],
-            None => [Vector::zero(); 2],
+        let [velocity, acceleration] = match (&self.ride, &head.way) {
+            (Some(ride), _) => [ride.velocity.into(), ride.acceleration.into()],
+            (None, Some(way)) => [root.taken_by(&way.velocity), root.taken_by(&way.acceleration)],
+            (None, None) => [Vector::zero(); 2],
         };
         for (i, segment) in self.segments.iter_mut().enumerate() {
             let FreeSegment { push, drag, lightness, .. } = segment.moved_by;
@@ -275,7 +345,7 @@ impl<S: Scalar> Strand<S> {
             let speed = self.chain.velocities[i + 1];
             let net = other + (weight - carried) - speed * self.chain.drag[i];
             let (at, shifted) = (self.positions[i + 1], self.shifted[i + 1]);
-            let shifted = if head.turn.is_some() { shifted } else { Vector::zero() };
+            let shifted = if self.is_shifted { shifted } else { Vector::zero() };
             let none = S::from(0.0);
             let moving = Moving { at, shifted, velocity: speed, acceleration: net, pressed: none };
             let clear = |b: usize| bodies[b].clear(self.kept_from[b][i + 1], &moving);
@@ -297,8 +367,8 @@ impl<S: Scalar> Strand<S> {
 
     /// Turns the segments as the solve says, and out of bodies, from root to tip.
     #[inline(always)]
-    fn go(&mut self, common: &Common, bodies: &[PlacedBody], h: f64) {
-        let Self { segments, chain, positions, shifted, clear, kept_from, .. } = self;
+    fn go(&mut self, bodies: &[PlacedBody], h: f64) {
+        let Self { segments, chain, positions, shifted, clear, kept_from, is_shifted, .. } = self;
         // Of p_(i-1).
         let mut velocity = Vector::zero();
         for (i, segment) in segments.iter_mut().enumerate() {
@@ -308,7 +378,7 @@ impl<S: Scalar> Strand<S> {
             // Held segments move with the head in any case.
             let bodies = if segment.moved_by.lightness == 0.0 { &[][..] } else { bodies };
             if !bodies.is_empty() {
-                let left_behind = if common.head.turn.is_some() { shifted[i + 1] } else { Vector::zero() };
+                let left_behind = if *is_shifted { shifted[i + 1] } else { Vector::zero() };
                 let (was, carried) = (segment.direction, velocity.times(h) + left_behind);
                 let touched = |b: usize| {
                     let (surface, clearance) = kept_from[b][i + 1];

@@ -9,6 +9,7 @@ use crate::dynamics::paper::angles::{POLE_REST, POLE_SINE, azimuth, from_directi
 use crate::error::SettingError;
 use crate::pseudo_force::Gamma;
 use crate::scalar::{Scalar, Vector};
+use crate::skin::{SkinFrame, SkinPlace};
 
 /// What is common to all strands.
 #[derive(Clone, Debug)]
@@ -24,6 +25,8 @@ pub(in crate::dynamics) struct Strand<S> {
     segments: Vec<Segment<S>>,
     /// Root first (head space, cm).
     positions: Vec<Vector<S>>,
+    /// The place of the skin that carries its root.
+    on_skin: Option<SkinPlace>,
 }
 
 /// One segment s_i: its angles at frame n, and what moves it.
@@ -78,7 +81,9 @@ impl<S: Scalar> Strand<S> {
             Segment { shape, theta: S::from(theta), phi: S::from(phi), theta_increment, phi_increment }
         });
         let positions = strand.iter().map(|p| p.as_dvec3().into()).collect();
-        let mut strand = Self { segments: segments.collect(), positions };
+        let on_skin = dynamics.skin.as_ref().map(|skin| skin.place(strand[0]));
+        let mut strand = Self { segments: segments.collect(), positions, on_skin };
+        strand.ride(dynamics.skin.as_ref().map(|skin| skin.at(0)));
         strand.place(common);
         Ok(strand)
     }
@@ -95,6 +100,7 @@ impl<S: Scalar> Strand<S> {
         Self {
             segments: known.segments.iter().map(segment).collect(),
             positions: known.positions.iter().map(|p| p.value().into()).collect(),
+            on_skin: known.on_skin,
         }
     }
 
@@ -104,9 +110,9 @@ impl<S: Scalar> Strand<S> {
     }
 
     /// Solves i = 1 .. k; p_i at frame n determines the force and whether eps_i applies. `disturbed`: the additional
-    /// turn of theta and phi at the tip.
+    /// turn of theta and phi at the tip. `skin`: that of frame n + 1.
     #[inline(always)]
-    pub fn step(&mut self, common: &Common, air: &impl Air<S>, disturbed: Option<[f64; 2]>) {
+    pub fn step(&mut self, common: &Common, air: &impl Air<S>, disturbed: Option<[f64; 2]>, skin: Option<&SkinFrame>) {
         for (segment, &end) in self.segments.iter_mut().zip(&self.positions[1..]) {
             let force = air.force(end);
             let weakened = common.gamma.contains(end.value(), force.value().as_vec3());
@@ -119,7 +125,15 @@ impl<S: Scalar> Strand<S> {
                 segment.phi += S::from(phi * segment.shape.along);
             }
         }
+        self.ride(skin);
         self.place(common);
+    }
+
+    /// Takes the root along with its skin. Angles are of head space, so nothing else goes along.
+    fn ride(&mut self, skin: Option<&SkinFrame>) {
+        if let (Some(place), Some(skin)) = (&self.on_skin, skin) {
+            self.positions[0] = place.root(skin).into();
+        }
     }
 
     /// Computes the points of the strand from its root outward.

@@ -1,0 +1,73 @@
+//! Skin that bends: the vertices of a head's mesh in every frame, from the file that holds both mesh and motion.
+
+use std::path::Path;
+
+use glam::{Affine3A, Vec3, Vec3A};
+use nabiki::Pose;
+use nabiki_exchange::{BOUND_SHAPE, FIRST_SHAPE};
+
+use crate::error::{Error, Result};
+use crate::exchange;
+use crate::mesh::glb::STILL_SHAPE;
+use crate::mesh::{self, Welded};
+use crate::placement::Placement;
+
+/// Whether meshes of a file bend: their points, joints or morphs move. `groups` chooses meshes as in [`mesh::read`]. Meshes
+/// that only go as a whole do not.
+///
+/// # Errors
+/// If the file is invalid.
+pub fn bends(path: &Path, groups: &[String]) -> Result<bool> {
+    if exchange::is_usd(path) || exchange::is_alembic(path) {
+        return exchange::bends(path, groups);
+    }
+    Ok(false)
+}
+
+/// The vertices of a mesh as [`mesh::import`] has them (head space, cm), in the frames 0 to `last`. The head's motion is of the
+/// same file: its poses, and the file's times of frame 0 and between two frames (s). `frame` takes one frame after another.
+///
+/// # Errors
+/// If the file is invalid, or its vertices change their number.
+pub fn each_frame(
+    path: &Path,
+    groups: &[String],
+    placement: &Placement,
+    (poses, [first, step]): (&[Pose], [f64; 2]),
+    last: usize,
+    frame: &mut dyn FnMut(Vec<Vec3>) -> Result<()>,
+) -> Result<()> {
+    let named = |e: Error| e.in_file(path);
+    let welded = mesh::welded_from(&mesh::read(path, groups)?.positions);
+    let head_from_file = placement.head_from_file();
+    let placed = |n: usize, all: &[Vec3]| -> Result<Vec<Vec3>> {
+        let Welded { vertices, kept } = &welded;
+        if all.len() != *vertices {
+            let line = format!(
+                "frame {n} of the motion: its meshes have {} vertices, and {vertices} in the shape at rest: skin that carries hair \
+                 keeps its vertices in every frame",
+                all.len()
+            );
+            return Err(Error::new(line));
+        }
+        let pose = poses.get(n).or(poses.last()).copied().unwrap_or_default();
+        // Of the scene's world, where the file's own origin stays.
+        let world_from_file = Affine3A { translation: Vec3A::ZERO, ..head_from_file };
+        let head_from_world = pose.world_from_head().inverse();
+        let there =
+            kept.iter().map(|&v| head_from_world.transform_point3(world_from_file.transform_point3(all[v as usize])));
+        let there: Vec<Vec3> = there.collect();
+        match there.iter().position(|p| !p.is_finite()) {
+            Some(v) => Err(Error::new(format!("frame {n} of the motion: vertex {v} of the skin is not finite"))),
+            None => Ok(there),
+        }
+    };
+    let times: Vec<f64> = (0..=last).map(|n| first + n as f64 * step).collect();
+    exchange::each_bent(path, groups, &times, &mut |n, all| frame(placed(n, &all).map_err(named)?))
+}
+
+/// Whether a phrase about unused data says that a mesh keeps one shape. It does not, if its skin is read.
+#[must_use]
+pub fn says_rigid(unread: &str) -> bool {
+    [FIRST_SHAPE, BOUND_SHAPE, STILL_SHAPE].iter().any(|shape| unread.ends_with(shape))
+}

@@ -1,0 +1,127 @@
+//! The skin of a head that bends: read with the head's motion, from the file that holds both.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use nabiki::Skin;
+use nabiki::skin::SkinFrame;
+use nabiki_io::skin;
+
+use super::groom::Groom;
+use super::model::Model;
+use super::stage::{At, Stage};
+use super::way::Way;
+use crate::error::{Error, Result};
+use crate::memory;
+use crate::scene::{HeadSource, Scene};
+
+/// The vertices of the head's mesh in each frame. Other data of a motion is read frame by frame; these are kept, because
+/// every step needs three frames and every picture one.
+#[derive(Debug)]
+pub(crate) struct Bent {
+    inputs: BentInputs,
+    /// Head space (cm), from frame 0 to the last; none for a head that does not bend.
+    pub frames: Vec<Vec<Vec3>>,
+}
+
+/// The inputs of a skin that bends.
+#[derive(Debug)]
+pub(super) struct BentInputs {
+    model: Arc<Model>,
+    way: Arc<Way>,
+    last: usize,
+}
+
+impl BentInputs {
+    pub fn of(scene: &Scene, model: &Arc<Model>, way: &Arc<Way>) -> Self {
+        Self { model: model.clone(), way: way.clone(), last: scene.motion.frames as usize }
+    }
+}
+
+impl PartialEq for BentInputs {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.model, &other.model) && Arc::ptr_eq(&self.way, &other.way) && self.last == other.last
+    }
+}
+
+impl Stage for Bent {
+    type Inputs = BentInputs;
+
+    fn is_of(&self, inputs: &BentInputs) -> bool {
+        self.inputs == *inputs
+    }
+
+    fn make(inputs: BentInputs, at: At<'_>) -> Result<Self> {
+        let BentInputs { model, way, last } = &inputs;
+        let mut frames = Vec::new();
+        if let (Some((file, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source)
+            && skin::bends(file, &head.groups)?
+        {
+            let vertices = model.head.mesh.positions.len();
+            let bytes = (vertices * size_of::<Vec3>() * (last + 1)) as u64;
+            if let Some(short) = memory::short_of(bytes) {
+                let line =
+                    format!("the skin's {vertices} vertices in {} frames {short}: lower motion.frames", last + 1);
+                return Err(nabiki_io::Error::new(line).in_file(file).into());
+            }
+            let mut wanted = true;
+            let read =
+                skin::each_frame(file, &head.groups, &model.placement, (&way.poses, times), *last, &mut |frame| {
+                    wanted = wanted && (at.goes_on)(0.0);
+                    frames.push(frame);
+                    if wanted { Ok(()) } else { Err(nabiki_io::Error::new("not wanted")) }
+                });
+            if !wanted {
+                return Err(Error::Cancelled);
+            }
+            read?;
+        }
+        Ok(Self { inputs, frames })
+    }
+}
+
+/// The skin under the hair.
+#[derive(Debug)]
+pub(crate) struct Scalp {
+    inputs: ScalpInputs,
+    /// None for a head that does not bend.
+    pub skin: Option<Arc<Skin>>,
+    /// One line about it.
+    pub report: Option<String>,
+}
+
+/// The inputs of the skin under the hair.
+#[derive(Debug)]
+pub(super) struct ScalpInputs {
+    pub bent: Arc<Bent>,
+    pub groom: Arc<Groom>,
+}
+
+impl Stage for Scalp {
+    type Inputs = ScalpInputs;
+
+    fn is_of(&self, inputs: &ScalpInputs) -> bool {
+        Arc::ptr_eq(&self.inputs.bent, &inputs.bent) && Arc::ptr_eq(&self.inputs.groom, &inputs.groom)
+    }
+
+    fn make(inputs: ScalpInputs, at: At<'_>) -> Result<Self> {
+        let ScalpInputs { bent, groom } = &inputs;
+        if bent.frames.is_empty() {
+            return Ok(Self { inputs, skin: None, report: None });
+        }
+        let mesh = &bent.inputs.model.head.mesh;
+        let refused = |refused| at.refusal(refused);
+        let skin = Skin::new(mesh, "head.mesh").map_err(refused)?.under(&[&groom.hair.strands, &groom.first]);
+        let frames = bent.frames.iter().map(|frame| skin.frame(frame));
+        let frames: Vec<SkinFrame> = frames.collect::<Result<_, _>>().map_err(refused)?;
+        let skin = skin.with_frames(frames);
+        let mut report =
+            format!("its skin bends, and carries {} roots on {} triangles", groom.hair.strands.len(), skin.len());
+        if let Some((frame, roots)) = skin.folded(&groom.hair.strands).first() {
+            report += &format!(
+                "; from frame {frame} on, it folds flat under {roots} of them, which then do not turn with it"
+            );
+        }
+        Ok(Self { inputs, skin: Some(Arc::new(skin)), report: Some(report) })
+    }
+}
