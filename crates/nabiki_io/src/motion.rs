@@ -22,6 +22,8 @@ use crate::input::{self, MOST_BINARY_BYTES, MOST_TEXT_BYTES};
 use crate::kind::extension;
 use source::asked;
 
+pub(crate) use clip::Clip;
+
 pub use crate::axis::Axis;
 pub use mover::{ClipMover, clip_carries, clip_mover};
 pub use source::{Interpolation, MotionSource};

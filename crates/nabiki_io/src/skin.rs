@@ -8,18 +8,23 @@ use nabiki_exchange::{BOUND_SHAPE, FIRST_SHAPE};
 
 use crate::error::{Error, Result};
 use crate::exchange;
-use crate::mesh::glb::STILL_SHAPE;
+use crate::input::{self, MOST_BINARY_BYTES};
+use crate::mesh::glb::{self, STILL_SHAPE};
 use crate::mesh::{self, Welded};
 use crate::placement::Placement;
 
-/// Whether meshes of a file bend: their points, joints or morphs move. `groups` chooses meshes as in [`mesh::read`]. Meshes
-/// that only go as a whole do not.
+/// Whether meshes of a file bend: their points, joints or morphs move. `groups` chooses meshes as in [`mesh::read`], `clip` an
+/// animation of a glTF. Meshes that only go as a whole do not.
 ///
 /// # Errors
 /// If the file is invalid.
-pub fn bends(path: &Path, groups: &[String]) -> Result<bool> {
+pub fn bends(path: &Path, groups: &[String], clip: &str) -> Result<bool> {
     if exchange::is_usd(path) || exchange::is_alembic(path) {
         return exchange::bends(path, groups);
+    }
+    if mesh::is_gltf(path) {
+        let bytes = input::read(path, MOST_BINARY_BYTES)?;
+        return glb::bends(&bytes, path.parent(), groups, clip).map_err(|e| e.in_file(path));
     }
     Ok(false)
 }
@@ -31,7 +36,7 @@ pub fn bends(path: &Path, groups: &[String]) -> Result<bool> {
 /// If the file is invalid, or its vertices change their number.
 pub fn each_frame(
     path: &Path,
-    groups: &[String],
+    (groups, clip): (&[String], &str),
     placement: &Placement,
     (poses, [first, step]): (&[Pose], [f64; 2]),
     last: usize,
@@ -63,7 +68,12 @@ pub fn each_frame(
         }
     };
     let times: Vec<f64> = (0..=last).map(|n| first + n as f64 * step).collect();
-    exchange::each_bent(path, groups, &times, &mut |n, all| frame(placed(n, &all).map_err(named)?))
+    let take = &mut |n: usize, all: Vec<Vec3>| frame(placed(n, &all)?);
+    if mesh::is_gltf(path) {
+        let bytes = input::read(path, MOST_BINARY_BYTES)?;
+        return glb::each_bent(&bytes, path.parent(), groups, clip, &times, take).map_err(named);
+    }
+    exchange::each_bent(path, groups, &times, take).map_err(named)
 }
 
 /// Whether a phrase about unused data says that a mesh keeps one shape. It does not, if its skin is read.

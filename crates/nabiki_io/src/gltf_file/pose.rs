@@ -1,7 +1,7 @@
 //! Where the nodes of a glTF are in its still pose, the one that it has without its animations.
 
 use glam::{DAffine3, DMat3, DVec3};
-use gltf::Document;
+use gltf::{Document, Node};
 
 use crate::error::{Error, Result};
 
@@ -21,17 +21,18 @@ pub(crate) fn parents(document: &Document) -> Result<Vec<Option<usize>>> {
     Ok(parents)
 }
 
-/// Takes each node's space to the scene's; `None` for what hangs below itself.
+/// Takes each node's space to the scene's; `None` for what hangs below itself. Some nodes are moved from where they are in the file to
+/// where `moved` has them below the node above.
 ///
 /// # Errors
 /// A node below two others.
-pub(crate) fn still_pose(document: &Document) -> Result<Vec<Option<DAffine3>>> {
+pub(crate) fn pose(document: &Document, moved: &dyn Fn(&Node) -> Option<DAffine3>) -> Result<Vec<Option<DAffine3>>> {
     let parents = parents(document)?;
     let mut pose = vec![None; parents.len()];
     let roots = document.nodes().filter(|node| parents[node.index()].is_none());
     let mut open: Vec<_> = roots.map(|root| (root, DAffine3::IDENTITY)).collect();
     while let Some((node, scene_from_parent)) = open.pop() {
-        let scene_from_node = scene_from_parent * transform(node.transform().matrix());
+        let scene_from_node = scene_from_parent * moved(&node).unwrap_or_else(|| transform(node.transform().matrix()));
         pose[node.index()] = Some(scene_from_node);
         open.extend(node.children().map(|child| (child, scene_from_node)));
     }

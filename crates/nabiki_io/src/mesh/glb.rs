@@ -14,6 +14,7 @@ use super::{TRIANGLE_BYTES, VERTEX_BYTES};
 use crate::error::{Error, Result};
 use crate::gltf_file::accessors::{Whole, numbers, whole_numbers};
 use crate::gltf_file::{Buffers, open, pose};
+use crate::motion::Clip;
 use skin::Skin;
 
 /// The triangles, and what of the meshes is left out or not obeyed, a phrase each. `folder`: where buffers in files of their own
@@ -22,7 +23,7 @@ pub(super) fn from_bytes(bytes: &[u8], folder: Option<&Path>, groups: &[String])
     let (document, blob) = open(bytes)?;
     let buffers = Buffers::new(&document, bytes, blob, folder)?;
     let (mut mesh, mut unread) = (Mesh::default(), Vec::new());
-    each_part(&document, &buffers, groups, &mut |part| part.append_to(&mut mesh, &buffers, &mut unread))?;
+    each_part(&document, &buffers, groups, None, &mut |part| part.append_to(&mut mesh, &buffers, &mut unread))?;
     let used = |extension: &str| document.extensions_used().any(|used| used == extension);
     if mesh.corner_uvs.is_some() && used("KHR_texture_transform") {
         unread.push("KHR_texture_transform: texture coordinates are read without it".to_owned());
@@ -51,7 +52,7 @@ pub(crate) fn carried(
     counts: &dyn Fn(Vec3) -> bool,
 ) -> Result<Vec<usize>> {
     let mut carried = vec![0; document.nodes().len()];
-    each_part(document, buffers, groups, &mut |part| {
+    each_part(document, buffers, groups, None, &mut |part| {
         for (v, _) in part.positions.iter().enumerate().filter(|(_, p)| counts(**p)) {
             carried[part.carriers.as_ref().map_or(part.node.index(), |carriers| carriers[v])] += 1;
         }
@@ -112,11 +113,60 @@ struct Part<'a> {
     mirrored: bool,
 }
 
-/// Goes through what the default scene shows, or of it what `groups` name.
+/// An animation at a time (s).
+#[derive(Clone, Copy)]
+struct Playing<'a> {
+    clip: &'a Clip,
+    time: f64,
+}
+
+/// The vertices of [`from_bytes`] at some times (s) of an animation, in its order, one time after another.
+pub(crate) fn each_bent(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    groups: &[String],
+    clip: &str,
+    times: &[f64],
+    frame: &mut dyn FnMut(usize, Vec<Vec3>) -> Result<()>,
+) -> Result<()> {
+    let (document, blob) = open(bytes)?;
+    let buffers = Buffers::new(&document, bytes, blob, folder)?;
+    let clip = Clip::read(&document, &buffers, clip, &|_| true)?;
+    for (n, &time) in times.iter().enumerate() {
+        buffers.budget.next_moment()?;
+        let mut all = Vec::new();
+        each_part(&document, &buffers, groups, Some(Playing { clip: &clip, time }), &mut |part| {
+            all.extend(&part.positions);
+            Ok(())
+        })?;
+        frame(n, all)?;
+    }
+    Ok(())
+}
+
+/// Whether an animation bends the meshes: morphs, or more than one joint of a skin.
+pub(crate) fn bends(bytes: &[u8], folder: Option<&Path>, groups: &[String], clip: &str) -> Result<bool> {
+    let (document, blob) = open(bytes)?;
+    let buffers = Buffers::new(&document, bytes, blob, folder)?;
+    let clip = Clip::read(&document, &buffers, clip, &|_| true)?;
+    let mut bends = false;
+    each_part(&document, &buffers, groups, None, &mut |part| {
+        let carriers = part.carriers.as_deref().unwrap_or_default();
+        let several = carriers.windows(2).any(|pair| pair[0] != pair[1]);
+        let joints =
+            part.node.skin().into_iter().flat_map(|skin| skin.joints().map(|joint| joint.index()).collect::<Vec<_>>());
+        bends |= clip.morphs(part.node.index()) || several && clip.moves(joints);
+        Ok(())
+    })?;
+    Ok(bends)
+}
+
+/// Goes through what the default scene shows, or of it what `groups` name: in the still pose, or as an animation has it.
 fn each_part<'a>(
     document: &'a gltf::Document,
     buffers: &Buffers<'_>,
     groups: &[String],
+    playing: Option<Playing<'_>>,
     visit: &mut dyn FnMut(&Part<'a>) -> Result<()>,
 ) -> Result<()> {
     let nodes = document.nodes().filter_map(|n| n.name());
@@ -124,7 +174,8 @@ fn each_part<'a>(
     check_groups(groups, &names)?;
     let wanted = |name: Option<&str>| name.is_some_and(|name| groups.iter().any(|g| g == name));
 
-    let pose = pose::still_pose(document)?;
+    let moved = |node: &gltf::Node| playing.and_then(|Playing { clip, time }| clip.transform(node.index(), time));
+    let pose = pose::pose(document, &moved)?;
     let mut skins: Vec<Option<Skin>> = document.skins().map(|_| None).collect();
     let mut seen = vec![false; document.nodes().len()];
     let scene = document.default_scene().or_else(|| document.scenes().next());
@@ -158,7 +209,9 @@ fn each_part<'a>(
             for primitive in mesh.primitives() {
                 let named = |e: Error| Error::new(format!("mesh {}: {}", mesh.index(), e.what));
                 let (node, mesh) = (node.clone(), mesh.clone());
-                let part = Part::new(node, mesh, primitive, buffers, scene_from_node, skin).map_err(named)?;
+                let weights = playing.and_then(|Playing { clip, time }| clip.weights(node.index(), time));
+                let part =
+                    Part::new(node, mesh, primitive, buffers, scene_from_node, (skin, weights)).map_err(named)?;
                 visit(&part).map_err(named)?;
             }
         }
@@ -174,7 +227,7 @@ impl<'a> Part<'a> {
         primitive: gltf::Primitive<'a>,
         buffers: &Buffers<'_>,
         scene_from_node: DAffine3,
-        skin: Option<&Skin>,
+        (skin, weights): (Option<&Skin>, Option<Vec<f32>>),
     ) -> Result<Self> {
         if not_a_surface(primitive.mode()).is_some() {
             return Ok(Self { node, mesh, primitive, positions: Vec::new(), carriers: None, mirrored: false });
@@ -182,8 +235,8 @@ impl<'a> Part<'a> {
         // A mesh drawn by many nodes is copied for each.
         let vertices = primitive.get(&Semantic::Positions).map_or(0, |accessor| accessor.count());
         buffers.budget.take(vertices as u64 * VERTEX_BYTES, "vertices")?;
-        let weights = node.weights().or(mesh.weights()).unwrap_or_default();
-        let own = positions(&primitive, weights, buffers)?;
+        let still = node.weights().or(mesh.weights()).unwrap_or_default();
+        let own = positions(&primitive, weights.as_deref().unwrap_or(still), buffers)?;
         if let Some(bent) = skin.map(|skin| skin.bend(&primitive, &own, buffers)).transpose()?.flatten() {
             let (positions, carriers, mirrored) = (bent.positions, Some(bent.carriers), bent.mirrored);
             return Ok(Self { node, mesh, primitive, positions, carriers, mirrored });

@@ -24,59 +24,10 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let (document, blob) = gltf_file::open(bytes)?;
     let buffers = Buffers::new(&document, bytes, blob, source.file.parent())?;
     let chain = chain(&document, &source.node)?;
-    let animation = animation(&document, &source.clip)?;
-    // The crate's own validation passes over a channel's target, and its reader would panic.
-    let json = document.as_json();
-    for target in json.animations[animation.index()].channels.iter().map(|channel| &channel.target) {
-        if matches!(target.path, gltf::json::validation::Checked::Invalid) {
-            return Err(Error::new("a channel moves something other than translation, rotation, scale or weights"));
-        }
-        let (node, count) = (target.node.value(), json.nodes.len());
-        if node >= count {
-            return Err(Error::new(format!("a channel moves node {node}, but there are {count}")));
-        }
-    }
-
-    let mut curves: Vec<Curves> = chain.iter().map(still).collect();
-    let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
-    // Many channels share their times.
-    let mut known: HashMap<usize, Rc<[f64]>> = HashMap::new();
-    for channel in animation.channels() {
-        let sampler = channel.sampler();
-        let input = sampler.input();
-        let times = match known.get(&input.index()) {
-            Some(times) => times.clone(),
-            None => {
-                let times = numbers::<1>(&input, &buffers, Whole::AsSaid, "times")?;
-                known.entry(input.index()).or_insert(times.into_iter().map(|[t]| f64::from(t)).collect()).clone()
-            }
-        };
-        let node = channel.target().node();
-        let name = node.name().unwrap_or("without a name");
-        if times.is_empty() || !times.iter().all(|t| t.is_finite()) || times.windows(2).any(|w| w[0] >= w[1]) {
-            return Err(Error::new(format!("clip of node {name}: its times must increase and be finite")));
-        }
-        start = start.min(times[0]);
-        end = end.max(times[times.len() - 1]);
-        let Some(place) = chain.iter().position(|n| n.index() == node.index()) else { continue };
-        let curve = |values: Vec<DVec4>| Curve::new(times.clone(), values, sampler.interpolation(), name);
-        let triples = |what| -> Result<Vec<DVec4>> {
-            let values = numbers::<3>(&sampler.output(), &buffers, Whole::Shares, what)?;
-            Ok(values.into_iter().map(|v| DVec3::from(v.map(f64::from)).extend(0.0)).collect())
-        };
-        match channel.target().property() {
-            Property::Translation => curves[place].translation = curve(triples("translations")?)?,
-            Property::Scale => curves[place].scale = curve(triples("scales")?)?,
-            Property::Rotation => {
-                let values = numbers::<4>(&sampler.output(), &buffers, Whole::Shares, "rotations")?;
-                curves[place].rotation = curve(values.into_iter().map(|q| DVec4::from(q.map(f64::from))).collect())?;
-            }
-            Property::MorphTargetWeights => {}
-        }
-    }
-    if start > end {
-        return Err(Error::new(format!("clip \"{}\" has no channel", animation.name().unwrap_or_default())));
-    }
+    let on_chain = |node: usize| chain.iter().any(|other| other.index() == node);
+    let clip = Clip::read(&document, &buffers, &source.clip, &on_chain)?;
+    let Clip { start, end, .. } = clip;
+    let curves: Vec<&Curves> = chain.iter().map(|node| &clip.curves[&node.index()]).collect();
     let (still_pose, _) = world(chain.iter().map(|node| matrix(node.transform())), &source.node)?;
     let (up, facing) = (source.up.unwrap_or(Axis::PlusY), source.facing.unwrap_or(Axis::PlusZ));
     let unit_cm = source.unit_cm.unwrap_or(100.0);
@@ -98,7 +49,7 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
         "{}: clip {}, node {}, {:.3} s -> {frames} frames at {frame_rate} Hz{} (evaluated at the frames; unit {unit_cm} cm, \
          up {up}, face {facing}){}",
         source.file.display(),
-        animation.name().unwrap_or("without a name"),
+        clip.name.as_deref().unwrap_or("without a name"),
         source.node,
         end - start,
         source.changes(),
@@ -110,6 +61,137 @@ pub(super) fn head_motion(source: &MotionSource, bytes: &[u8], frame_rate: f64) 
     let bound = Some(pose_of(world_from_file.pose(unturned)));
     let times = [start, source.speed / frame_rate];
     Ok(HeadMotion { frame_rate, poses, bound, times, first_frame: None, report })
+}
+
+/// An animation: what moves nodes and morphs over time.
+pub(crate) struct Clip {
+    name: Option<String>,
+    /// Of the nodes that are wanted.
+    curves: HashMap<usize, Curves>,
+    /// Of the morphs of nodes that are wanted.
+    morphs: HashMap<usize, Morphs>,
+    /// Its first and last time (s).
+    start: f64,
+    end: f64,
+}
+
+impl Clip {
+    /// The animation `clip`, which may be empty if there is only one, as far as it moves the nodes for which `wanted` is true.
+    ///
+    /// # Errors
+    /// No such animation, or one whose numbers contradict each other.
+    pub fn read(
+        document: &gltf::Document,
+        buffers: &Buffers<'_>,
+        clip: &str,
+        wanted: &dyn Fn(usize) -> bool,
+    ) -> Result<Self> {
+        let animation = animation(document, clip)?;
+        // The crate's own validation passes over a channel's target, and its reader would panic.
+        let json = document.as_json();
+        for target in json.animations[animation.index()].channels.iter().map(|channel| &channel.target) {
+            if matches!(target.path, gltf::json::validation::Checked::Invalid) {
+                return Err(Error::new("a channel moves something other than translation, rotation, scale or weights"));
+            }
+            let (node, count) = (target.node.value(), json.nodes.len());
+            if node >= count {
+                return Err(Error::new(format!("a channel moves node {node}, but there are {count}")));
+            }
+        }
+        let nodes = document.nodes().filter(|node| wanted(node.index()));
+        let mut curves: HashMap<usize, Curves> = nodes.map(|node| (node.index(), still(&node))).collect();
+        let mut morphs = HashMap::new();
+        let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
+        // Many channels share their times.
+        let mut known: HashMap<usize, Rc<[f64]>> = HashMap::new();
+        for channel in animation.channels() {
+            let sampler = channel.sampler();
+            let input = sampler.input();
+            let times = match known.get(&input.index()) {
+                Some(times) => times.clone(),
+                None => {
+                    let times = numbers::<1>(&input, buffers, Whole::AsSaid, "times")?;
+                    known.entry(input.index()).or_insert(times.into_iter().map(|[t]| f64::from(t)).collect()).clone()
+                }
+            };
+            let node = channel.target().node();
+            let name = node.name().unwrap_or("without a name");
+            if times.is_empty() || !times.iter().all(|t| t.is_finite()) || times.windows(2).any(|w| w[0] >= w[1]) {
+                return Err(Error::new(format!("clip of node {name}: its times must increase and be finite")));
+            }
+            start = start.min(times[0]);
+            end = end.max(times[times.len() - 1]);
+            let Some(of_node) = curves.get_mut(&node.index()) else { continue };
+            let curve = |values: Vec<DVec4>| Curve::new(times.clone(), values, sampler.interpolation(), name);
+            let triples = |what| -> Result<Vec<DVec4>> {
+                let values = numbers::<3>(&sampler.output(), buffers, Whole::Shares, what)?;
+                Ok(values.into_iter().map(|v| DVec3::from(v.map(f64::from)).extend(0.0)).collect())
+            };
+            match channel.target().property() {
+                Property::Translation => of_node.translation = curve(triples("translations")?)?,
+                Property::Scale => of_node.scale = curve(triples("scales")?)?,
+                Property::Rotation => {
+                    let values = numbers::<4>(&sampler.output(), buffers, Whole::Shares, "rotations")?;
+                    of_node.rotation = curve(values.into_iter().map(|q| DVec4::from(q.map(f64::from))).collect())?;
+                }
+                Property::MorphTargetWeights => {
+                    let values = numbers::<1>(&sampler.output(), buffers, Whole::Shares, "weights of morphs")?;
+                    let values = values.into_iter().map(|[weight]| f64::from(weight)).collect();
+                    let of_morphs = Morphs::new(times.clone(), values, sampler.interpolation(), name)?;
+                    morphs.insert(node.index(), of_morphs);
+                }
+            }
+        }
+        let name = animation.name().map(str::to_owned);
+        if start > end {
+            return Err(Error::new(format!("clip \"{}\" has no channel", name.unwrap_or_default())));
+        }
+        Ok(Self { name, curves, morphs, start, end })
+    }
+
+    /// Whether it moves any of these nodes.
+    pub fn moves(&self, nodes: impl IntoIterator<Item = usize>) -> bool {
+        nodes.into_iter().any(|node| self.curves.get(&node).is_some_and(|curves| !curves.is_still()))
+    }
+
+    /// Whether it moves the morphs of a node.
+    pub fn morphs(&self, node: usize) -> bool {
+        self.morphs.contains_key(&node)
+    }
+
+    /// Takes a node's space to the one above it at a time (s); none for nodes that were not wanted.
+    pub fn transform(&self, node: usize, time: f64) -> Option<DAffine3> {
+        self.curves.get(&node).map(|curves| DAffine3::from_mat4(curves.matrix_at(time)))
+    }
+
+    /// The weights of a node's morphs at a time (s), if it moves them.
+    pub fn weights(&self, node: usize, time: f64) -> Option<Vec<f32>> {
+        self.morphs.get(&node).map(|morphs| morphs.at(time))
+    }
+}
+
+/// The weights of the morphs of one node: a curve for each.
+struct Morphs(Vec<Curve>);
+
+impl Morphs {
+    fn new(times: Rc<[f64]>, values: Vec<f64>, interpolation: Interpolation, node: &str) -> Result<Self> {
+        let each = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+        let (count, rows) = (values.len(), each * times.len());
+        if !count.is_multiple_of(rows) {
+            let times = times.len();
+            return Err(Error::new(format!("clip of node {node}: {count} weights of morphs for {times} times")));
+        }
+        let morphs = count / rows;
+        let of = |morph: usize| {
+            let own = values.iter().skip(morph).step_by(morphs).map(|&weight| DVec4::X * weight);
+            Curve::new(times.clone(), own.collect(), interpolation, node)
+        };
+        (0..morphs).map(of).collect::<Result<_>>().map(Self)
+    }
+
+    fn at(&self, time: f64) -> Vec<f32> {
+        self.0.iter().map(|curve| curve.at(time).x as f32).collect()
+    }
 }
 
 /// The nodes from the scene's root down to the one named.

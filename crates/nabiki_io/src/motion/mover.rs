@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use glam::Vec3;
+use gltf::json::{animation::Property, validation::Checked};
 
 use super::clip;
 use crate::error::{Error, Result};
@@ -46,7 +47,11 @@ pub fn clip_mover(file: &Path, groups: &[String], counts: &dyn Fn(Vec3) -> bool)
             return Ok(None);
         }
         let chain = &above[named..];
-        let moves = |clip: &gltf::Animation| targets(clip, &document).any(|target| chain.contains(&target));
+        // Skin that bends counts as well: a jaw, or a smile.
+        let bends = |target: usize| carried[target] > 0;
+        let moves = |clip: &gltf::Animation| {
+            targets(clip, &document).any(|target| chain.contains(&target) || bends(target)) || has_morphs(clip, &document)
+        };
         let clips: Vec<gltf::Animation> = document.animations().filter(moves).collect();
         let only = document.animations().len() == 1;
         let choosable = |clip: &gltf::Animation| {
@@ -104,9 +109,22 @@ fn head_of(document: &gltf::Document, carried: &[usize]) -> Option<usize> {
 
 /// The nodes that an animation places.
 fn targets<'a>(clip: &gltf::Animation<'a>, document: &'a gltf::Document) -> impl Iterator<Item = usize> + use<'a> {
-    use gltf::json::{animation::Property, validation::Checked};
+    channels(clip, document).filter(|(_, path)| *path != Property::MorphTargetWeights).map(|(node, _)| node)
+}
+
+/// Whether an animation moves morphs.
+fn has_morphs(clip: &gltf::Animation, document: &gltf::Document) -> bool {
+    channels(clip, document).any(|(_, path)| path == Property::MorphTargetWeights)
+}
+
+/// The nodes that an animation moves, and what of them.
+fn channels<'a>(
+    clip: &gltf::Animation<'a>,
+    document: &'a gltf::Document,
+) -> impl Iterator<Item = (usize, Property)> + use<'a> {
     let channels = document.as_json().animations[clip.index()].channels.iter();
-    let places =
-        |path: &Checked<Property>| matches!(path, Checked::Valid(path) if *path != Property::MorphTargetWeights);
-    channels.filter(move |channel| places(&channel.target.path)).map(|channel| channel.target.node.value())
+    channels.filter_map(|channel| match channel.target.path {
+        Checked::Valid(path) => Some((channel.target.node.value(), path)),
+        Checked::Invalid => None,
+    })
 }

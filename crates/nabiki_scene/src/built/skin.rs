@@ -54,8 +54,8 @@ impl Stage for Bent {
     fn make(inputs: BentInputs, at: At<'_>) -> Result<Self> {
         let BentInputs { model, way, last } = &inputs;
         let mut frames = Vec::new();
-        if let (Some((file, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source)
-            && skin::bends(file, &head.groups)?
+        if let (Some((file, clip, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source)
+            && skin::bends(file, &head.groups, clip)?
         {
             let vertices = model.head.mesh.positions.len();
             let bytes = (vertices * size_of::<Vec3>() * (last + 1)) as u64;
@@ -65,12 +65,18 @@ impl Stage for Bent {
                 return Err(nabiki_io::Error::new(line).in_file(file).into());
             }
             let mut wanted = true;
-            let read =
-                skin::each_frame(file, &head.groups, &model.placement, (&way.poses, times), *last, &mut |frame| {
+            let read = skin::each_frame(
+                file,
+                (&head.groups, clip),
+                &model.placement,
+                (&way.poses, times),
+                *last,
+                &mut |frame| {
                     wanted = wanted && (at.goes_on)(0.0);
                     frames.push(frame);
                     if wanted { Ok(()) } else { Err(nabiki_io::Error::new("not wanted")) }
-                });
+                },
+            );
             if !wanted {
                 return Err(Error::Cancelled);
             }

@@ -97,12 +97,12 @@ impl Stage for Way {
 }
 
 impl Way {
-    /// The file that both mesh and motion are of, and its times of frame 0 and between two frames (s), if the mesh is carried as it
-    /// lies there. Its skin may bend then.
-    pub(super) fn of_mesh(&self) -> Option<(&Path, [f64; 2])> {
+    /// The file that both mesh and motion are of, its clip, and its times of frame 0 and between two frames (s), if the mesh is carried
+    /// as it lies there. Its skin may bend then.
+    pub(super) fn of_mesh(&self) -> Option<(&Path, &str, [f64; 2])> {
         let WayInputs { source, mesh, file, .. } = self.inputs.as_ref()?;
         let mesh = mesh.as_deref().filter(|mesh| source.bind_at_start && resolved(file, &source.file) == *mesh)?;
-        holds_scenes(mesh).then_some((mesh, self.times))
+        holds_scenes(mesh).then_some((mesh, source.clip.as_str(), self.times))
     }
 
     /// Refuses a motion that ends before the scene does.
