@@ -240,7 +240,7 @@ impl Body {
     /// The surface that a node resting at this point (body space, cm) stays outside of, and its distance from that
     /// surface. The distance is the margin, or the distance at rest if that is smaller.
     pub fn kept_from(&self, at_rest: Vec3) -> (Surface, f32) {
-        let distance = |shape: &dyn Obstacle| shape.read(at_rest, 0).map_or(self.contact.margin, |at| at.distance);
+        let distance = |shape: &dyn Obstacle| shape.read_at_rest(at_rest).map_or(self.contact.margin, |at| at.distance);
         match self.filled.as_deref().map(|filled| distance(filled)) {
             Some(distance) if distance >= 0.0 => (Surface::Filled, distance.min(self.contact.margin)),
             _ => (Surface::Skin, distance(self.shape.obstacle()).min(self.contact.margin)),

@@ -6,6 +6,7 @@
 //! head, and four times finer in cells at or near the skin. A query is one trilinear interpolation. Outside the box,
 //! queries use the tree.
 
+mod bending;
 mod filled;
 mod nearest;
 pub(crate) mod rims;
@@ -18,7 +19,9 @@ use std::sync::OnceLock;
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
+pub use self::bending::BendingSkin;
 pub(crate) use self::nearest::Nearest;
+use self::sample::SLICE;
 pub(crate) use self::sample::{Places, whole};
 pub use self::stored::Samples;
 use crate::Mesh;
@@ -151,6 +154,11 @@ impl SkinDistance {
         // A cell has a block if its middle is within half a diagonal and two steps.
         let layers = 2.0 * (0.5 * 3.0_f64.sqrt() + 2.0 / FINE as f64);
         coarse + layers * areas.sum::<f64>() / (cell * cell) * (EDGE * EDGE * EDGE) as f64
+    }
+
+    /// The step between samples near the skin.
+    pub fn spacing(&self) -> f32 {
+        self.samples.cell / FINE as f32
     }
 
     /// Signed distance at `p`, computed from the mesh. About 100 times slower than [`at`](Self::at).

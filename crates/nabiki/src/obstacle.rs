@@ -23,6 +23,17 @@ pub trait Obstacle: Debug + Send + Sync {
     /// there. A distance may be too small anywhere, and up to 5 % too large above 4 cm.
     fn read(&self, p: Vec3, frame: u32) -> Option<Reading>;
 
+    /// The same when only a part of the frame is over, 0..1: for shapes that bend, if a frame has several steps.
+    #[inline]
+    fn read_during(&self, p: Vec3, frame: u32, _part: f32) -> Option<Reading> {
+        self.read(p, frame)
+    }
+
+    /// The same at rest, where groomed hair is: by default, in frame 0.
+    fn read_at_rest(&self, p: Vec3) -> Option<Reading> {
+        self.read(p, 0)
+    }
+
     /// The displacement of the material at a point since the previous frame (cm), in the shape's space. 0 for rigid
     /// shapes.
     fn moved(&self, _p: Vec3, _frame: u32) -> Vec3 {

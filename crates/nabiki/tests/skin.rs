@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use common::{HEAD, Whirl, ball, bits, exact, fast, field, free, gust, hair, run, wind, with_neighbours};
 use glam::{DVec3, Quat, Vec3};
-use nabiki::body::{Body, BodyWay, Contact, skin_of};
+use nabiki::body::{Body, BodyWay, Contact, Shape, skin_of};
+use nabiki::distance::BendingSkin;
 use nabiki::dynamics::{Dynamics, Form, FrameInput, Simulation, Stepper, Timeline, VectorWidth};
 use nabiki::free_form::{FreeForm, Tie};
 use nabiki::skin::SkinFrame;
@@ -75,6 +76,7 @@ fn with_drag(drag: f32) -> Dynamics {
         settle: 20.0.into(),
         gravity: 100.0,
         drag: drag.into(),
+        substeps: Some(1),
         ..Default::default()
     };
     free(form)
@@ -92,7 +94,7 @@ fn hair_on_skin_at_rest_moves_as_on_a_head_to_the_bit() {
     }
 }
 
-/// A scalp that its skin turns moves as one that the head turns.
+/// A scalp that its skin turns moves as one that the head turns: exactly in one step a frame, as skin goes its way step by step.
 #[test]
 fn skin_that_turns_moves_hair_as_a_head_that_turns() {
     let strands = hair(40, 18);
@@ -312,5 +314,75 @@ fn hair_on_a_fold_stays_finite() {
     {
         let end = run(stepper, &wind(), FRAMES);
         assert!(end.points().iter().all(|p| p.is_finite()));
+    }
+}
+
+/// The scalp of `moved`, as a body that bends.
+fn bending(at: impl Fn(Vec3, u32) -> Vec3) -> Body {
+    let mesh = scalp();
+    let frames: Vec<Vec<Vec3>> = (0..=FRAMES).map(|n| mesh.positions.iter().map(|&p| at(p, n)).collect()).collect();
+    let contact = Contact { margin: 0.3, ..Contact::default() };
+    let rest = Arc::new(skin_of(mesh.clone(), "head.mesh").unwrap());
+    let skin = BendingSkin::new(rest.clone(), &mesh, &frames, rest.sampled_box(), 0.3);
+    Body::new("contact", Shape::Other(Arc::new(skin)), BodyWay::WithHead, contact)
+}
+
+/// On its own skin, whichever way that bends.
+fn on_its_own(at: impl Fn(Vec3, u32) -> Vec3 + Copy, drag: f32, substeps: u32) -> Dynamics {
+    let mut dynamics = on(moved(at), with_drag(drag));
+    if let Form::Free(free) = &mut dynamics.form {
+        free.bodies = vec![bending(at)];
+        free.form.substeps = Some(substeps);
+    }
+    dynamics
+}
+
+/// How deep nodes are in a body in a frame, more than at rest (cm): the deepest.
+fn deepest(body: &Body, rest: &Strands, now: &Strands, frame: u32) -> f32 {
+    let depths = rest.points().iter().zip(now.points()).map(|(at_rest, p)| {
+        let (_, clearance) = body.kept_from(*at_rest);
+        body.shape.obstacle().read(*p, frame).map_or(0.0, |at| clearance.min(0.0) - at.distance)
+    });
+    depths.fold(0.0, f32::max)
+}
+
+#[test]
+fn hair_stays_out_of_skin_that_bends() {
+    let strands = hair(60, 18);
+    for substeps in [1, 4] {
+        let dynamics = on_its_own(grimace, 0.7, substeps);
+        let Form::Free(free) = &dynamics.form else { unreachable!() };
+        let steppers: [Box<dyn Stepper>; 2] =
+            [Box::new(exact(&strands, &dynamics, &wind())), Box::new(fast(&strands, &dynamics, &wind()))];
+        for (twin, mut stepper) in steppers.into_iter().enumerate() {
+            for n in 1..=FRAMES {
+                stepper.step_frame(&FrameInput::new(n, &[], &wind()));
+                let deepest = deepest(&free.bodies[0], &strands, stepper.strands(), n);
+                // Nodes are turned out of what is sampled, to a tenth of a thousandth; roots and what is held are not.
+                assert!(deepest < 0.01, "{substeps} steps, twin {twin}, frame {n}: {deepest} cm deep");
+            }
+        }
+    }
+}
+
+/// A head that grows and shrinks, without wind: hair that lies on it goes along and is not thrown.
+#[test]
+fn hair_on_skin_that_breathes_is_not_thrown() {
+    let strands = hair(60, 18);
+    let breath = |p: Vec3, n: u32| (1.0 + 0.04 * (0.3 * n as f32).sin()) * p;
+    // The skin itself moves by so much in a frame, and so does all that rests on it.
+    let fastest = 0.04 * 0.3 * (11.0 + 18.0);
+    let calm = field(&[(1000, [0.0; 3])]);
+    for substeps in [1, 4] {
+        let dynamics = on_its_own(breath, 0.0, substeps);
+        let mut simulation = fast(&strands, &dynamics, &calm);
+        let mut before = simulation.strands().clone();
+        for n in 1..=FRAMES {
+            simulation.step_frame(&FrameInput::new(n, &[], &calm));
+            for (a, b) in before.points().iter().zip(simulation.strands().points()) {
+                assert!(a.distance(*b) < 2.0 * fastest, "{substeps} steps, frame {n}: {} cm", a.distance(*b));
+            }
+            before = simulation.strands().clone();
+        }
     }
 }

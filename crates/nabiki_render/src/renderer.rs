@@ -189,14 +189,21 @@ impl Renderer {
         Ok(self)
     }
 
-    /// Draws the head with these vertices (head space, cm) from now on, as its skin bends. Motion blur shows its motion as a
-    /// whole, but not how it bends.
+    /// Draws the head (`None`) or a body, by its number, with other vertices in its own space (cm) from now on, as its skin bends.
+    /// Motion blur shows the motion of its space, but not how it bends.
     ///
     /// # Panics
-    /// If their number is not that of the mesh.
-    pub fn bend_head(&mut self, vertices: &[Vec3]) {
-        if self.head.positions != vertices {
-            self.head.positions.copy_from_slice(vertices);
+    /// If there is no such body, or the number of vertices is not that of its mesh.
+    pub fn bend<'a>(&mut self, skins: impl IntoIterator<Item = (Option<usize>, &'a [Vec3])>) {
+        let mut bent = false;
+        for (body, vertices) in skins {
+            let mesh = body.map_or(&mut self.head, |body| &mut self.bodies[body]);
+            if mesh.positions != vertices {
+                mesh.positions.copy_from_slice(vertices);
+                bent = true;
+            }
+        }
+        if bent {
             self.solids = Solids::new(&self.head, self.bodies.iter());
             self.still = None;
         }

@@ -259,6 +259,16 @@ impl BuiltScene {
         all.map(|(i, mesh, _)| DrawnBody { mesh: mesh.clone(), colour: self.scene.bodies[i].colour }).collect()
     }
 
+    /// The vertices of the visible bodies that bend in a frame (body space, cm), each with its index in
+    /// [`drawn_bodies`](Self::drawn_bodies).
+    pub fn bent_bodies(&self, frame: u32) -> impl Iterator<Item = (usize, &[Vec3])> {
+        let shown = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
+        shown.enumerate().filter_map(move |(i, (_, body))| {
+            let frames = &body.frames;
+            Some((i, frames.get(frame as usize).or(frames.last())?.as_slice()))
+        })
+    }
+
     /// World poses of the visible bodies in a frame, in the order of [`drawn_bodies`](Self::drawn_bodies).
     pub fn drawn_poses(&self, frame: u32) -> Vec<Pose> {
         self.shown_bodies(frame).map(|(_, _, pose)| pose).collect()

@@ -115,7 +115,7 @@ impl Samples {
 }
 
 /// Stride from one layer of a block to the next.
-const SLICE: usize = EDGE * EDGE;
+pub(super) const SLICE: usize = EDGE * EDGE;
 
 /// Four samples from `at` on, x fastest; `row` is the stride between rows.
 #[inline(always)]

@@ -24,12 +24,12 @@ pub(super) struct SkinStep<'a> {
 /// How its skin carries one strand in one frame (head space, cm).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ride {
-    pub root: DVec3,
-    pub root_before: DVec3,
-    /// The skin's turn from rest.
-    pub from_rest: DQuat,
-    /// The skin's turn from the frame before.
-    pub carried: DQuat,
+    /// In the frame before, and in this one.
+    roots: [DVec3; 2],
+    /// The skin's turn from rest, in the same.
+    turns: [DQuat; 2],
+    /// The skin's turn from the frame before, as [`turn`](Self::turn).
+    carried: Option<(DVec3, f64)>,
     /// The turn from the frame before by skin and head, in the world: axis, of length 1, and angle (rad). `None` if it is 0.
     pub turn: Option<(DVec3, f64)>,
     /// Of the point that carries the strand, in the world (cm a frame, cm a frame^2).
@@ -67,14 +67,30 @@ impl<'a> SkinStep<'a> {
             None => [DVec3::ZERO; 2],
         };
         Ride {
-            root: place.root_on(self.frames[0], turns[0]),
-            root_before: place.root_on(self.frames[1], turns[1]),
-            from_rest: turns[0],
-            carried: if turns[0] == turns[1] { DQuat::IDENTITY } else { carried },
+            roots: [1, 0].map(|back| place.root_on(self.frames[back], turns[back])),
+            turns: [turns[1], turns[0]],
+            carried: if turns[0] == turns[1] { None } else { axis_and_angle(carried) },
             turn: axis_and_angle(carried * self.head_turn),
             velocity: velocity + once,
             acceleration: acceleration + 2.0 * once - twice,
         }
+    }
+}
+
+impl Ride {
+    /// Root and turn from rest after step `n` of the `steps` of the frame; 0 is the end of the frame before.
+    pub fn at(&self, n: u32, steps: u32) -> (DVec3, DQuat) {
+        let Self { roots: [root_before, root], turns: [turn_before, turn], .. } = *self;
+        if n == steps {
+            return (root, turn);
+        }
+        let part = f64::from(n) / f64::from(steps);
+        (root_before.lerp(root, part), self.carried(part) * turn_before)
+    }
+
+    /// The skin's turn in a part of the frame.
+    pub fn carried(&self, part: f64) -> DQuat {
+        self.carried.map_or(DQuat::IDENTITY, |(axis, angle)| DQuat::from_axis_angle(axis, part * angle))
     }
 }
 

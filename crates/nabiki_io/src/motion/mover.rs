@@ -50,7 +50,8 @@ pub fn clip_mover(file: &Path, groups: &[String], counts: &dyn Fn(Vec3) -> bool)
         // Skin that bends counts as well: a jaw, or a smile.
         let bends = |target: usize| carried[target] > 0;
         let moves = |clip: &gltf::Animation| {
-            targets(clip, &document).any(|target| chain.contains(&target) || bends(target)) || has_morphs(clip, &document)
+            targets(clip, &document).any(|target| chain.contains(&target) || bends(target))
+                || has_morphs(clip, &document)
         };
         let clips: Vec<gltf::Animation> = document.animations().filter(moves).collect();
         let only = document.animations().len() == 1;

@@ -3,9 +3,15 @@
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
+use glam::Vec3;
 use nabiki::body::{Body, BodyWay, Shape, skin_of};
-use nabiki::{Mesh, Pose};
+use nabiki::strands::bounds;
+use nabiki::{Mesh, Pose, Strands};
+use nabiki_io::skin::says_rigid;
 use nabiki_io::{Placement, declared_space, mesh};
+
+use super::groom::Groom;
+use super::skin::{bending, frames_of};
 
 use super::stage::{At, Stage};
 use super::way::WayInputs;
@@ -21,6 +27,8 @@ pub(crate) struct BuiltBody {
     /// Phrases about unused data of the meshes in its file.
     pub unread: Vec<String>,
     pub way: BodyWay,
+    /// Its vertices in each frame, from frame 0 on; none for a body that does not bend.
+    pub frames: Vec<Vec<Vec3>>,
     /// How its file lies in that space.
     pub placement: Placement,
     /// Its shape: a capsule, or the skin of the mesh once that is needed for contact.
@@ -37,6 +45,8 @@ pub(super) struct BodyInputs {
     /// What its file and its motion are read with; other settings are at their defaults.
     settings: BodySettings,
     frame_rate: f64,
+    /// The last frame.
+    last: u32,
 }
 
 impl BodyInputs {
@@ -45,7 +55,13 @@ impl BodyInputs {
         let BodySettings { solid, margin, friction, static_friction, shown, colour, .. } = BodySettings::default();
         let settings = scene.bodies[number].clone();
         let settings = BodySettings { solid, margin, friction, static_friction, shown, colour, ..settings };
-        Self { file: scene.file().to_owned(), number, settings, frame_rate: scene.frame_rate() }
+        Self {
+            file: scene.file().to_owned(),
+            number,
+            settings,
+            frame_rate: scene.frame_rate(),
+            last: scene.motion.frames,
+        }
     }
 }
 
@@ -57,7 +73,7 @@ impl Stage for BuiltBody {
     }
 
     fn make(inputs: BodyInputs, at: At<'_>) -> Result<Self> {
-        let BodyInputs { file: scene, number, settings, frame_rate } = &inputs;
+        let BodyInputs { file: scene, number, settings, frame_rate, last } = &inputs;
         let name = format!("body[{number}]");
         let capsule = settings.as_capsule(&name).map_err(|refused| at.refusal(refused))?;
         let (file, placement, mesh, unread, shape) = match capsule {
@@ -74,22 +90,37 @@ impl Stage for BuiltBody {
                 (Some(file), placement, mesh, report.unread, OnceLock::new())
             }
         };
+        let mut frames = Vec::new();
         let way = match &settings.motion {
             _ if settings.with_head => BodyWay::WithHead,
             None => BodyWay::InWorld(Arc::new([Pose::STILL])),
             Some(source) => {
                 let (scene, source) = (scene.clone(), source.clone());
                 let motion = WayInputs { file: scene, source, mesh: file, placement, frame_rate: *frame_rate };
-                BodyWay::InWorld(motion.read(&format!("{name}.motion"), at)?.poses.into())
+                let read = motion.read(&format!("{name}.motion"), at)?;
+                if let Some(file) = motion.of_mesh() {
+                    let (which, clip) = (&settings.groups, motion.source.clip.as_str());
+                    let times = (&read.poses[..], read.times);
+                    frames = frames_of(file, (which, clip), &placement, times, (*last, mesh.positions.len()), at)?;
+                }
+                BodyWay::InWorld(read.poses.into())
             }
         };
-        Ok(Self { inputs, mesh, unread, way, placement, shape })
+        let mut unread: Vec<String> = unread;
+        unread.retain(|line| frames.is_empty() || !says_rigid(line));
+        Ok(Self { inputs, mesh, unread, way, frames, placement, shape })
     }
 }
 
 impl BuiltBody {
     /// The body for contact, if it is solid, with the scene's settings.
-    pub(super) fn felt(&self, settings: &BodySettings, frames: u32, at: At<'_>) -> Result<Option<Body>> {
+    pub(super) fn felt(
+        &self,
+        settings: &BodySettings,
+        frames: u32,
+        reach: &Reach<'_>,
+        at: At<'_>,
+    ) -> Result<Option<Body>> {
         let name = format!("body[{}]", self.inputs.number);
         let long_enough = if settings.motion.is_some() { self.way.check_length(&name, frames) } else { Ok(()) };
         long_enough.and_then(|()| self.way.check(&name, frames)).map_err(|refused| at.refusal(refused))?;
@@ -99,11 +130,46 @@ impl BuiltBody {
         let shape = match self.shape.get() {
             Some(shape) => shape.clone(),
             None => {
-                let skin =
-                    skin_of(self.mesh.clone(), &format!("{name}.mesh")).map_err(|refused| at.refusal(refused))?;
-                self.shape.get_or_init(|| Arc::new(skin).into()).clone()
+                let skin = skin_of(self.mesh.clone(), &format!("{name}.mesh"));
+                let skin = Arc::new(skin.map_err(|refused| at.refusal(refused))?);
+                if !self.frames.is_empty() {
+                    // Made anew with each groom, whose reach it is sampled within.
+                    let within = reach.in_space_of(&self.way);
+                    let skin = bending(&skin, &self.mesh, &self.frames, within, settings.margin)?;
+                    return Ok(Some(Body::new(name, Shape::Other(skin), self.way.clone(), settings.contact())));
+                }
+                self.shape.get_or_init(|| skin.into()).clone()
             }
         };
         Ok(Some(Body::new(name, shape, self.way.clone(), settings.contact())))
+    }
+}
+
+/// Where hair may be: a ball in head space, and the head's poses.
+pub(super) struct Reach<'a> {
+    center: Vec3,
+    radius: f32,
+    poses: &'a [Pose],
+}
+
+impl<'a> Reach<'a> {
+    pub fn of(groom: &Groom, poses: &'a [Pose]) -> Self {
+        let roots = |strands: &Strands| strands.iter().map(|strand| strand[0]).collect::<Vec<_>>();
+        let all = [&groom.hair.strands, &groom.first];
+        let [low, high] = bounds(&all.map(roots).concat());
+        let longest = all.into_iter().flat_map(Strands::lengths).fold(0.0, f32::max);
+        Self { center: 0.5 * (low + high), radius: 0.5 * low.distance(high) + longest, poses }
+    }
+
+    /// The box about it in the space of a body, for all frames.
+    fn in_space_of(&self, way: &BodyWay) -> [Vec3; 2] {
+        let frames = 0..self.poses.len().max(1) as u32;
+        let centers = frames.map(|n| {
+            let head = self.poses.get(n as usize).copied().unwrap_or_default();
+            let body_from_head = way.pose(n, &head).world_from_head().inverse() * head.world_from_head();
+            body_from_head.transform_point3(self.center)
+        });
+        let [low, high] = bounds(&centers.collect::<Vec<_>>());
+        [low - self.radius, high + self.radius]
     }
 }

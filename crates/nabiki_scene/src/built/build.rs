@@ -70,7 +70,7 @@ fn build_about(
         let form = scene.free.resolved(&dynamics, mean);
         of_speed = carrying_force(&dynamics, mean.strand, form.settle.mean());
         let known = known.iter().flat_map(|known| &known.bodies);
-        bodies = set_free(&mut dynamics, form, &scene, &model, &groom, rest_pose, known, at)?;
+        bodies = set_free(&mut dynamics, form, &scene, (&model, &way, &bent), &groom, rest_pose, known, at)?;
     }
     let intervals = scene.field.force.iter().map(|force| force.keyframe(of_speed)).collect();
     let inputs = ForcesInputs::of(&scene, &model, &way, intervals);

@@ -7,10 +7,12 @@ use nabiki::free_form::{FreeForm, FreeMotion, Neighbours};
 use nabiki::locks::Locks;
 use nabiki::{Pose, Strands};
 
-use super::bodies::{BodyInputs, BuiltBody};
+use super::bodies::{BodyInputs, BuiltBody, Reach};
 use super::groom::Groom;
 use super::model::Model;
+use super::skin::Bent;
 use super::stage::{At, Stage};
+use super::way::Way;
 use crate::error::Result;
 use crate::scene::{FormChoice, MeanLengths, Scene};
 
@@ -62,18 +64,20 @@ pub(super) fn set_free<'a>(
     dynamics: &mut Dynamics,
     form: FreeForm,
     scene: &Scene,
-    model: &Model,
+    (model, way, bent): (&Model, &Way, &Bent),
     groom: &Groom,
     rest_pose: Pose,
     known: impl Iterator<Item = &'a Arc<BuiltBody>> + Clone,
     at: At<'_>,
 ) -> Result<Vec<Arc<BuiltBody>>> {
-    let (mut felt, mut bodies) = (vec![model.body(scene.contact)], Vec::new());
+    let head = bent.body(scene.contact)?.unwrap_or_else(|| model.body(scene.contact));
+    let reach = Reach::of(groom, &way.poses);
+    let (mut felt, mut bodies) = (vec![head], Vec::new());
     for (i, settings) in scene.bodies.iter().enumerate() {
         // All hair is grown at this point.
         at.still_wanted(1.0)?;
         let body = BuiltBody::of(BodyInputs::of(scene, i), known.clone(), at)?;
-        felt.extend(body.felt(settings, scene.motion.frames, at)?);
+        felt.extend(body.felt(settings, scene.motion.frames, &reach, at)?);
         bodies.push(body);
     }
     let neighbours = scene.neighbours.as_ref().map(|forces| {

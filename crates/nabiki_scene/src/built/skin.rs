@@ -1,11 +1,14 @@
 //! The skin of a head that bends: read with the head's motion, from the file that holds both.
 
-use std::sync::Arc;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
-use nabiki::Skin;
+use nabiki::body::{Body, BodyWay, Contact, Shape};
+use nabiki::distance::{BendingSkin, SkinDistance};
 use nabiki::skin::SkinFrame;
-use nabiki_io::skin;
+use nabiki::{Mesh, Pose, Skin};
+use nabiki_io::{Placement, skin};
 
 use super::groom::Groom;
 use super::model::Model;
@@ -22,6 +25,8 @@ pub(crate) struct Bent {
     inputs: BentInputs,
     /// Head space (cm), from frame 0 to the last; none for a head that does not bend.
     pub frames: Vec<Vec<Vec3>>,
+    /// It as a body, for the largest clearance that was asked for (cm).
+    body: Mutex<Option<(f32, Arc<BendingSkin>)>>,
 }
 
 /// The inputs of a skin that bends.
@@ -54,35 +59,84 @@ impl Stage for Bent {
     fn make(inputs: BentInputs, at: At<'_>) -> Result<Self> {
         let BentInputs { model, way, last } = &inputs;
         let mut frames = Vec::new();
-        if let (Some((file, clip, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source)
-            && skin::bends(file, &head.groups, clip)?
-        {
+        if let (Some((file, clip, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source) {
             let vertices = model.head.mesh.positions.len();
-            let bytes = (vertices * size_of::<Vec3>() * (last + 1)) as u64;
-            if let Some(short) = memory::short_of(bytes) {
-                let line =
-                    format!("the skin's {vertices} vertices in {} frames {short}: lower motion.frames", last + 1);
-                return Err(nabiki_io::Error::new(line).in_file(file).into());
-            }
-            let mut wanted = true;
-            let read = skin::each_frame(
-                file,
-                (&head.groups, clip),
-                &model.placement,
-                (&way.poses, times),
-                *last,
-                &mut |frame| {
-                    wanted = wanted && (at.goes_on)(0.0);
-                    frames.push(frame);
-                    if wanted { Ok(()) } else { Err(nabiki_io::Error::new("not wanted")) }
-                },
-            );
-            if !wanted {
-                return Err(Error::Cancelled);
-            }
-            read?;
+            let groups = &head.groups;
+            frames =
+                frames_of(file, (groups, clip), &model.placement, (&way.poses, times), (*last as u32, vertices), at)?;
         }
-        Ok(Self { inputs, frames })
+        Ok(Self { inputs, frames, body: Mutex::default() })
+    }
+}
+
+/// The vertices of a mesh in each frame up to `last` (its own space, cm), if it bends; else none. The file holds the motion, too.
+pub(super) fn frames_of(
+    file: &Path,
+    (groups, clip): (&[String], &str),
+    placement: &Placement,
+    motion: (&[Pose], [f64; 2]),
+    (last, vertices): (u32, usize),
+    at: At<'_>,
+) -> Result<Vec<Vec<Vec3>>> {
+    let mut frames = Vec::new();
+    if !skin::bends(file, groups, clip)? {
+        return Ok(frames);
+    }
+    let count = last as usize + 1;
+    if let Some(short) = memory::short_of((vertices * size_of::<Vec3>() * count) as u64) {
+        let line = format!("the skin's {vertices} vertices in {count} frames {short}: lower motion.frames");
+        return Err(nabiki_io::Error::new(line).in_file(file).into());
+    }
+    let mut wanted = true;
+    let read = skin::each_frame(file, (groups, clip), placement, motion, last as usize, &mut |frame| {
+        wanted = wanted && (at.goes_on)(0.0);
+        frames.push(frame);
+        if wanted { Ok(()) } else { Err(nabiki_io::Error::new("not wanted")) }
+    });
+    if !wanted {
+        return Err(Error::Cancelled);
+    }
+    read?;
+    Ok(frames)
+}
+
+impl Bent {
+    /// The head as a body that bends; `None` for one that does not.
+    pub(super) fn body(&self, contact: Contact) -> Result<Option<Body>> {
+        if self.frames.is_empty() {
+            return Ok(None);
+        }
+        let head = &self.inputs.model.head;
+        let mut known = self.body.lock().unwrap_or_else(PoisonError::into_inner);
+        let skin = match &*known {
+            Some((clearance, skin)) if *clearance >= contact.margin => skin.clone(),
+            _ => {
+                let within = head.skin().sampled_box();
+                let skin = bending(head.skin(), &head.mesh, &self.frames, within, contact.margin)?;
+                known.insert((contact.margin, skin)).1.clone()
+            }
+        };
+        Ok(Some(Body::new("contact", Shape::Other(skin), BodyWay::WithHead, contact)))
+    }
+}
+
+/// The distance to a skin that bends, if it fits into memory. `within`: the box in which it is needed.
+pub(super) fn bending(
+    rest: &Arc<SkinDistance>,
+    mesh: &Mesh,
+    frames: &[Vec<Vec3>],
+    within: [Vec3; 2],
+    clearance: f32,
+) -> Result<Arc<BendingSkin>> {
+    let of = |frames| BendingSkin::new(rest.clone(), mesh, frames, within, clearance);
+    let bytes = of(&frames[..1]).bytes() * frames.len() as u64;
+    match memory::short_of(bytes) {
+        None => Ok(Arc::new(of(frames))),
+        Some(short) => {
+            let (vertices, frames) = (mesh.positions.len(), frames.len());
+            let line = format!("contact with a skin of {vertices} vertices that bends in {frames} frames {short}");
+            Err(Error::refused(format!("{line}: lower motion.frames, or use only the parts near the hair")))
+        }
     }
 }
 

@@ -76,6 +76,14 @@ pub(crate) fn holds_scenes(file: &Path) -> bool {
     exchange::is_usd(file) || exchange::is_alembic(file) || mesh::is_gltf(file)
 }
 
+impl WayInputs {
+    /// The file of the mesh, if the motion is of the same one and carries the mesh as it lies there.
+    pub fn of_mesh(&self) -> Option<&Path> {
+        let mesh = self.mesh.as_deref().filter(|_| self.source.bind_at_start)?;
+        (resolved(&self.file, &self.source.file) == *mesh && holds_scenes(mesh)).then_some(mesh)
+    }
+}
+
 impl Stage for Way {
     type Inputs = Option<WayInputs>;
 
@@ -100,9 +108,8 @@ impl Way {
     /// The file that both mesh and motion are of, its clip, and its times of frame 0 and between two frames (s), if the mesh is carried
     /// as it lies there. Its skin may bend then.
     pub(super) fn of_mesh(&self) -> Option<(&Path, &str, [f64; 2])> {
-        let WayInputs { source, mesh, file, .. } = self.inputs.as_ref()?;
-        let mesh = mesh.as_deref().filter(|mesh| source.bind_at_start && resolved(file, &source.file) == *mesh)?;
-        holds_scenes(mesh).then_some((mesh, source.clip.as_str(), self.times))
+        let inputs = self.inputs.as_ref()?;
+        Some((inputs.of_mesh()?, inputs.source.clip.as_str(), self.times))
     }
 
     /// Refuses a motion that ends before the scene does.

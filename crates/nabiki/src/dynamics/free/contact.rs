@@ -50,8 +50,9 @@ pub(super) struct PlacedBody {
     moves: bool,
     /// The largest distance that any of its points moves in its own space in the step (cm).
     bends: f32,
-    /// Of the frame.
+    /// Of the frame, and the share of the frame that is over at its end.
     part: f32,
+    until: f32,
     /// The largest distance that any part of it within reach of hair moves (cm).
     pub closer: f32,
 }
@@ -74,7 +75,9 @@ pub(super) struct Touch {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moving {
     pub at: Vec3,
-    /// How far the head's turn has left it behind in this step.
+    /// How far skin has taken it along in this step; 0 without skin that moves.
+    pub ridden: Vec3,
+    /// How far that and the head's turn have moved it in this step.
     pub shifted: Vec3,
     pub velocity: Vec3,
     pub acceleration: Vec3,
@@ -153,6 +156,7 @@ impl PlacedBody {
             moves: now != before,
             bends: body.shape.obstacle().farthest_moved(input.frame) * part,
             part,
+            until: step as f32 * part,
             closer: 0.0,
         };
         placed.closer = placed.farthest_moved(center, radius);
@@ -204,12 +208,10 @@ impl PlacedBody {
 
     /// How far a node that moves with the body is from touching it at the end of the step; `None` far away.
     pub fn clear(&self, body: &Body, surface: Surface, clearance: f32, node: &Moving) -> Option<f32> {
-        let in_body = self.in_body(self.taken_along(node.at));
-        let reading = match skin(body, surface) {
-            Skin::Mesh(skin) => skin.read(in_body, self.frame),
-            Skin::Other(shape) => shape.read(in_body, self.frame),
-        };
-        Some(reading?.distance - clearance)
+        match skin(body, surface) {
+            Skin::Mesh(skin) => self.clear_of(skin, clearance, node),
+            Skin::Other(shape) => self.clear_of(shape, clearance, node),
+        }
     }
 
     /// The push of the body on a node in the step: against the motion inward, against what pressed it in the step before, and friction.
@@ -221,15 +223,17 @@ impl PlacedBody {
         }
     }
 
+    fn clear_of(&self, skin: &(impl Obstacle + ?Sized), clearance: f32, node: &Moving) -> Option<f32> {
+        let along = self.taken_along(skin, node.at - node.ridden);
+        Some(self.read(skin, along)?.distance - clearance)
+    }
+
     fn against_at(&self, skin: &(impl Obstacle + ?Sized), clearance: f32, node: &Moving) -> Option<Push> {
         let h = self.part;
-        let carried = self.taken_along(node.at);
-        let in_body = self.in_body(carried);
-        let reading = skin.read(in_body, self.frame)?;
-        let mut of_body = carried - node.at;
-        if self.bends > 0.0 {
-            of_body += self.bent(skin, in_body);
-        }
+        let start = node.at - node.ridden;
+        let carried = self.taken_along(skin, start);
+        let reading = self.read(skin, carried)?;
+        let of_body = carried - start - node.ridden;
         let normal = self.normal(&reading);
         // A node that is already too deep is turned out, not thrown out.
         let sure = self::gap(reading.distance, clearance);
@@ -241,7 +245,7 @@ impl PlacedBody {
         if inward <= 0.0 {
             return Some(Push { clear: gap, gap: sure, ..Push::default() });
         }
-        let along = moved + node.shifted;
+        let along = moved + (node.shifted - node.ridden);
         let over = 1.0 / (h * h);
         let force = over * self.slowed(along, normal, along.dot(normal), inward);
         // Speed is stopped once; a pressing force continues.
@@ -255,8 +259,15 @@ impl PlacedBody {
     }
 
     /// Where the body takes a point that moves with it in the step.
-    fn taken_along(&self, p: Vec3) -> Vec3 {
-        if self.moves { self.now_from_before.transform_point3(p) } else { p }
+    fn taken_along(&self, skin: &(impl Obstacle + ?Sized), p: Vec3) -> Vec3 {
+        let p = if self.moves { self.now_from_before.transform_point3(p) } else { p };
+        if self.bends > 0.0 { p + self.bent(skin, self.in_body(p)) } else { p }
+    }
+
+    /// The distance at a point of head space at the end of the step; `None` far away.
+    #[inline(always)]
+    fn read(&self, skin: &(impl Obstacle + ?Sized), p: Vec3) -> Option<Reading> {
+        skin.read_during(self.in_body(p), self.frame, self.until)
     }
 
     /// The motion of a point by the bending of the body in the step, besides the motion of its space.
@@ -266,10 +277,9 @@ impl PlacedBody {
     }
 
     fn gap_to(&self, skin: &(impl Obstacle + ?Sized), end: Vec3, clearance: f32) -> f32 {
-        let in_body = self.in_body(end);
-        match skin.read(in_body, self.frame) {
+        match self.read(skin, end) {
             Some(reading) => gap(reading.distance, clearance),
-            None => beyond(skin.reach(), in_body) - self.margin,
+            None => beyond(skin.reach(), self.in_body(end)) - self.margin,
         }
     }
 
@@ -277,8 +287,7 @@ impl PlacedBody {
     fn stop_at(&self, skin: &(impl Obstacle + ?Sized), going: Going, touch: &Touch) -> Option<(Going, f32)> {
         let &Touch { from, length, clearance, carried, .. } = touch;
         let end = from + length * going.direction;
-        let in_body = self.in_body(end);
-        let reading = skin.read(in_body, self.frame)?;
+        let reading = self.read(skin, end)?;
         let depth = clearance - reading.distance;
         if depth <= 0.0 {
             return None;
@@ -286,7 +295,7 @@ impl PlacedBody {
         let normal = self.normal(&reading);
         let mut of_body = if self.moves { end - self.before_from_now.transform_point3(end) } else { Vec3::ZERO };
         if self.bends > 0.0 {
-            of_body += self.bent(skin, in_body);
+            of_body += self.bent(skin, self.in_body(end));
         }
         let moved = length * going.increment + carried - of_body;
         // Outward motion loses nothing: for 0 everything below is 0.
@@ -300,7 +309,7 @@ impl PlacedBody {
     }
 
     fn part_from(&self, skin: &(impl Obstacle + ?Sized), going: Going, touch: &Touch) -> Option<Going> {
-        let reading = skin.read(self.in_body(touch.from + touch.length * going.direction), self.frame)?;
+        let reading = self.read(skin, touch.from + touch.length * going.direction)?;
         if touch.clearance - reading.distance <= TOLERANCE_CM {
             return None;
         }
@@ -332,7 +341,7 @@ impl PlacedBody {
         }
         let (mut best, mut least) = if depth_there < depth { (stayed, depth_there) } else { (pushed, depth) };
         // If no turn is found this way, tries a fan of directions from there outward.
-        let reading = skin.read(self.in_body(touch.from + touch.length * best), self.frame);
+        let reading = self.read(skin, touch.from + touch.length * best);
         let normal = reading.map_or(best, |reading| self.normal(&reading));
         for step in 1..=FAN {
             if least <= TOLERANCE_CM {
@@ -354,7 +363,7 @@ impl PlacedBody {
         let mut pushes = 0;
         loop {
             let end = from + length * direction;
-            let Some(reading) = skin.read(self.in_body(end), self.frame) else { return (direction, 0.0) };
+            let Some(reading) = self.read(skin, end) else { return (direction, 0.0) };
             let depth = clearance - reading.distance;
             if depth <= TOLERANCE_CM || pushes == PUSHES {
                 return (direction, depth);

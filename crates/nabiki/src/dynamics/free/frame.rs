@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::kernel::{FreeRow, FreeState, NONE, ZERO, bend, carry, untwist};
+use super::kernel::{FreeRow, FreeState, NONE, bend, carry, untwist};
 use super::packed::{Packed, Plan, Step};
 use super::passes::{Blown, Go, Place, Stepped, Velocities};
 use super::reference::ROUNDS_PRESSED;
@@ -10,7 +10,7 @@ use super::ride_row::{RideRow, at_rest_on};
 use super::solve::{answer, drive, pull_taut, slacken, solve, unwind};
 use super::work::{self, Work};
 use crate::dynamics::block::Block;
-use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, set_lane};
 use crate::dynamics::sweep::Swept;
 use crate::prefetch::prefetch;
 use crate::vector::scale;
@@ -67,33 +67,22 @@ impl Packed {
     ) {
         let rows = &self.rows[block.rows()];
         let number = block.first_strand as usize / LANES;
-        let ride = step.skin.map(|skin| RideRow::new(&skin, self.places(block), &self.anchors[number]));
-        let of = Blown { packed: self, step, block, number, ride: ride.as_ref() };
-        if let Some(ride) = &ride {
-            of.carry(ride, states, work);
-        }
-        of.blow(states, work);
+        let mut ride = step.skin.map(|skin| RideRow::new(&skin, self.places(block), &self.anchors[number], step.steps));
         let h = 1.0 / step.steps as f32;
         let bodies = step.bodies.len() / step.steps as usize;
         let carried = (bodies > 0).then_some(self.weight_at_rest);
-        let from_rest = ride.as_ref().map(|ride| &ride.from_rest);
         for n in 1..=step.steps as usize {
-            let roots = of.roots();
-            match (&ride, step.turn) {
-                (Some(ride), _) => {
-                    let turn = |lane: usize| (lane_of(&ride.axis, lane), h * ride.angle.0[lane]);
-                    if ride.turns {
-                        of.stay_behind(states, turn, bodies > 0, n == 1, work);
-                    } else if n > 1 {
-                        work.iter_mut().for_each(|work| work.shifted = ZERO);
-                    }
-                }
-                (None, Some((axis, angle))) => {
-                    of.stay_behind(states, |_| (axis, h * angle), bodies > 0, false, work);
-                }
-                (None, None) => {}
+            if let Some(ride) = &mut ride {
+                ride.go_to(n as u32, step.steps);
             }
-            carry(states, rows, &roots, from_rest, carried, work);
+            let of = Blown { packed: self, step, block, number, ride: ride.as_ref() };
+            of.go_along(states, work);
+            if n == 1 {
+                of.blow(states, work);
+            }
+            of.stay_behind(states, h, bodies > 0, work);
+            let from_rest = ride.as_ref().map(|ride| &ride.from_rest);
+            carry(states, rows, &of.roots(), from_rest, carried, work);
             untwist(work);
             bend(states, rows, from_rest, work);
             let bodies = &step.bodies[(n - 1) * bodies..n * bodies];
@@ -111,7 +100,7 @@ impl Packed {
                 }
             }
             let page = if n == step.steps as usize { page.take() } else { None };
-            block.walk(&roots, states, rows, page, Go::new(stepped, work));
+            block.walk(&of.roots(), states, rows, page, Go::new(stepped, work));
         }
     }
 

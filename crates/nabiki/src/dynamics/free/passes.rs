@@ -56,35 +56,49 @@ impl<'a, 's> Blown<'a, 's> {
         self.ride.map_or(self.block.roots, |ride| ride.roots)
     }
 
-    /// Takes hair along with its skin, and notes how far.
+    /// Takes hair along with skin that moves in a step, and notes how far.
     #[inline(always)]
-    pub fn carry(&self, ride: &RideRow, states: &mut [FreeState], work: &mut [Work]) {
-        let before = states.iter().zip(self.rows()).scan(ride.roots_before, |end, (state, row)| {
-            *end = ends(state, row, end);
-            Some(*end)
-        });
-        before.zip(&mut *work).for_each(|(end, work)| work.shifted = end);
-        let mut end = ride.roots;
+    pub fn go_along(&self, states: &mut [FreeState], work: &mut [Work]) {
+        let Some(ride) = self.ride else { return };
+        let (mut before, mut end) = (ride.roots_before, ride.roots);
         for ((state, row), work) in states.iter_mut().zip(self.rows()).zip(work) {
+            before = ends(state, row, &before);
             ride.carry(state, row);
             end = ends(state, row, &end);
-            shift(state, &end, work);
+            let mut gap = state.gap;
+            for lane in 0..LANES {
+                let way = subtract(lane_of(&end, lane), lane_of(&before, lane));
+                gap.0[lane] -= dot(way, way).sqrt();
+                set_lane(&mut work.ridden, lane, way);
+            }
+            state.gap = gap;
+            work.shifted = work.ridden;
         }
     }
 
-    /// Leaves hair behind by its share of a turn in a step, and notes how far; `more`: in addition to what is noted.
+    /// Leaves hair behind by its share of the turn in a step of `h` frames, and notes how far.
     #[inline(always)]
-    pub fn stay_behind(
+    pub fn stay_behind(&self, states: &mut [FreeState], h: f32, meets_bodies: bool, work: &mut [Work]) {
+        match (self.ride, self.step.turn) {
+            (Some(ride), _) if ride.turns => {
+                let turn = |lane: usize| (lane_of(&ride.axis, lane), h * ride.angle.0[lane]);
+                self.turn_back(states, turn, meets_bodies, work);
+            }
+            (None, Some((axis, angle))) => self.turn_back(states, |_| (axis, h * angle), meets_bodies, work),
+            _ => {}
+        }
+    }
+
+    #[inline(always)]
+    fn turn_back(
         &self,
         states: &mut [FreeState],
         turn: impl Fn(usize) -> ([f32; 3], f32),
         meets_bodies: bool,
-        more: bool,
         work: &mut [Work],
     ) {
         let (rows, first, roots) = (self.rows(), self.block.rows().start, self.roots());
-        let (mut before, mut end) = (roots, roots);
-        let mut ways = Row::default();
+        let (mut before, mut end, mut ways) = (roots, roots, Row::default());
         for lane in 0..LANES {
             ways.0[lane] = turn(lane).1.abs() * self.packed.longest * self.packed.most_drag;
         }
@@ -94,10 +108,8 @@ impl<'a, 's> Blown<'a, 's> {
             if meets_bodies {
                 end = ends(state, row, &end);
                 for lane in 0..LANES {
-                    let mut way = subtract(lane_of(&end, lane), lane_of(&before, lane));
-                    if more {
-                        way = add(way, lane_of(&work.shifted, lane));
-                    }
+                    let way = subtract(lane_of(&end, lane), lane_of(&before, lane));
+                    let way = if self.ride.is_some() { add(way, lane_of(&work.ridden, lane)) } else { way };
                     set_lane(&mut work.shifted, lane, way);
                     state.gap.0[lane] -= ways.0[lane];
                 }
@@ -163,18 +175,6 @@ impl<'a, 's> Blown<'a, 's> {
         }
         forces
     }
-}
-
-/// Replaces where nodes were before, in `work`, by how far they have moved to `end`, and notes that a body may be nearer.
-#[inline(always)]
-fn shift(state: &mut FreeState, end: &PointRow, work: &mut Work) {
-    let (before, end, mut gap) = (work.shifted, *end, state.gap);
-    for lane in 0..LANES {
-        let way = subtract(lane_of(&end, lane), lane_of(&before, lane));
-        gap.0[lane] -= dot(way, way).sqrt();
-        set_lane(&mut work.shifted, lane, way);
-    }
-    state.gap = gap;
 }
 
 /// The acceleration of the nodes by forces.
@@ -287,6 +287,7 @@ impl<'a, 's> Stepped<'a, 's> {
         let of = |row: &PointRow| Vec3::from(lane_of(row, lane));
         let moving = Moving {
             at: of(&work.end),
+            ridden: if self.of.ride.is_some() { of(&work.ridden) } else { Vec3::ZERO },
             shifted: if self.of.is_shifted() { of(&work.shifted) } else { Vec3::ZERO },
             velocity: of(&work.velocity),
             acceleration: of(net),

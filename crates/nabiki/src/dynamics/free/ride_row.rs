@@ -7,15 +7,17 @@ use crate::dynamics::ride::{Ride, SkinStep};
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::skin::{SkinFrame, SkinPlace};
 
-/// [`Ride`] of every strand of a block.
-#[derive(Clone, Copy, Debug)]
+/// [`Ride`] of every strand of a block, in one step of a frame.
+#[derive(Clone, Debug)]
 pub(super) struct RideRow {
+    rides: [Option<Ride>; LANES],
     pub roots: PointRow,
-    /// In the frame before.
+    /// At the beginning of the step.
     pub roots_before: PointRow,
     pub from_rest: FrameRow,
+    /// In a step.
     carried: FrameRow,
-    /// Axis, of length 1, and angle (rad).
+    /// Axis, of length 1, and angle (rad) in the whole frame.
     pub axis: PointRow,
     pub angle: Row,
     pub velocity: PointRow,
@@ -26,9 +28,10 @@ pub(super) struct RideRow {
 }
 
 impl RideRow {
-    /// Of strands with these places; `anchors` are the points by which they are carried. Lanes without a strand stay.
-    pub fn new(skin: &SkinStep, places: &[SkinPlace], anchors: &PointRow) -> Self {
+    /// Of strands with these places, at the end of the frame before; `anchors` are the points by which they are carried.
+    pub fn new(skin: &SkinStep, places: &[SkinPlace], anchors: &PointRow, steps: u32) -> Self {
         let mut row = Self {
+            rides: [None; LANES],
             roots: ZERO,
             roots_before: ZERO,
             from_rest: FrameRow::AT_REST,
@@ -41,27 +44,36 @@ impl RideRow {
             turns: false,
         };
         for (lane, place) in places.iter().enumerate() {
-            row.set(lane, &skin.ride(place, Vec3::from(lane_of(anchors, lane)).as_dvec3()));
+            let ride = skin.ride(place, Vec3::from(lane_of(anchors, lane)).as_dvec3());
+            let narrow = |v: DVec3| v.as_vec3().to_array();
+            let (axis, angle) = ride.turn.unwrap_or_default();
+            let carried = ride.carried(1.0 / f64::from(steps));
+            row.carried.set(lane, carried.as_quat());
+            set_lane(&mut row.axis, lane, narrow(axis));
+            row.angle.0[lane] = angle as f32;
+            set_lane(&mut row.velocity, lane, narrow(ride.velocity));
+            set_lane(&mut row.acceleration, lane, narrow(ride.acceleration));
+            row.is_carried |= carried != DQuat::IDENTITY;
+            row.turns |= ride.turn.is_some();
+            row.rides[lane] = Some(ride);
         }
+        row.go_to(0, steps);
         row
     }
 
-    fn set(&mut self, lane: usize, ride: &Ride) {
-        let narrow = |v: DVec3| v.as_vec3().to_array();
-        let (axis, angle) = ride.turn.unwrap_or_default();
-        set_lane(&mut self.roots, lane, narrow(ride.root));
-        set_lane(&mut self.roots_before, lane, narrow(ride.root_before));
-        self.from_rest.set(lane, ride.from_rest.as_quat());
-        self.carried.set(lane, ride.carried.as_quat());
-        set_lane(&mut self.axis, lane, narrow(axis));
-        self.angle.0[lane] = angle as f32;
-        set_lane(&mut self.velocity, lane, narrow(ride.velocity));
-        set_lane(&mut self.acceleration, lane, narrow(ride.acceleration));
-        self.is_carried |= ride.carried != DQuat::IDENTITY;
-        self.turns |= ride.turn.is_some();
+    /// Goes to the end of step `n` of the `steps` of the frame.
+    pub fn go_to(&mut self, n: u32, steps: u32) {
+        self.roots_before = self.roots;
+        for (lane, ride) in self.rides.iter().enumerate() {
+            if let Some(ride) = ride {
+                let (root, from_rest) = ride.at(n, steps);
+                set_lane(&mut self.roots, lane, root.as_vec3().to_array());
+                self.from_rest.set(lane, from_rest.as_quat());
+            }
+        }
     }
 
-    /// Takes a segment of every strand along. What is held stays in its shape at rest.
+    /// Takes a segment of every strand along in a step. What is held stays in its shape at rest.
     #[inline(always)]
     pub fn carry(&self, state: &mut FreeState, row: &FreeRow) {
         let held = self.from_rest.of(&row.rest);

@@ -27,6 +27,8 @@ pub(super) struct Work {
     pub end: PointRow,
     pub velocity: PointRow,
     pub shifted: PointRow,
+    /// Its motion with skin that moves, in this step; unused without.
+    pub ridden: PointRow,
     /// Its distance from touching a body at the beginning of the step, if it was computed; else infinity.
     pub clear: Row,
     /// d_i / l_i.
@@ -57,6 +59,7 @@ impl Work {
         carried: Self::ROWS,
         moment: Self::ROWS,
         handed: Self::ROW,
+        ridden: Self::ROWS,
         end: Self::ROWS,
         velocity: Self::ROWS,
         shifted: Self::ROWS,

@@ -29,15 +29,18 @@ pub struct PlacedBody<'a> {
     before_from_now: DAffine3,
     now_from_before: DAffine3,
     moves: bool,
-    /// Of the frame.
+    /// Of the frame, and the share of the frame that is over at its end.
     part: f64,
+    until: f32,
 }
 
 /// A node at the beginning of a step (head space, cm and frames).
 #[derive(Clone, Copy)]
 pub struct Moving<S> {
     pub at: Vector<S>,
-    /// How far the head's turn has left it behind in this step.
+    /// How far skin has taken it along in this step; 0 without skin that moves.
+    pub ridden: Vector<S>,
+    /// How far that and the head's turn have moved it in this step.
     pub shifted: Vector<S>,
     pub velocity: Vector<S>,
     pub acceleration: Vector<S>,
@@ -73,13 +76,14 @@ impl<'a> PlacedBody<'a> {
             now_from_before: now * before.inverse(),
             moves: now != before,
             part: 1.0 / f64::from(steps),
+            until: step as f32 / steps as f32,
         }
     }
 
     /// How far a node that moves with the body is from touching it at the end of the step; infinity far away.
     /// `(surface, clearance)`: what it is kept out of, and at what distance.
     pub fn clear<S: Scalar>(&self, (surface, clearance): (Surface, f64), node: &Moving<S>) -> f64 {
-        let reading = self.reading(self.taken_along(node.at).value(), surface);
+        let reading = self.reading(self.taken_along(node.at - node.ridden).value(), surface);
         reading.map_or(f64::INFINITY, |reading| f64::from(reading.distance) - clearance)
     }
 
@@ -91,12 +95,10 @@ impl<'a> PlacedBody<'a> {
         node: &Moving<S>,
     ) -> Option<(Vector<S>, S, S)> {
         let h = self.part;
-        let carried = self.taken_along(node.at);
+        let start = node.at - node.ridden;
+        let carried = self.taken_along(start);
         let (distance, normal) = self.read(carried, surface)?;
-        let mut of_body = carried - node.at;
-        if let Some(bent) = self.bent(carried.value()) {
-            of_body += bent.into();
-        }
+        let of_body = carried - start - node.ridden;
         // A node that is already too deep is turned out, not thrown out.
         let gap = at_least_0(distance - S::from(clearance));
         let leaves = (node.velocity.times(h) - of_body).dot(normal) + gap;
@@ -107,7 +109,7 @@ impl<'a> PlacedBody<'a> {
         if inward.value() <= 0.0 {
             return Some((Vector::zero(), S::from(0.0), gap));
         }
-        let along = moved + node.shifted;
+        let along = moved + (node.shifted - node.ridden);
         let over = 1.0 / (h * h);
         // Speed is stopped once; a pressing force continues.
         let presses = at_least_0(inward - at_least_0(-leaves));
@@ -116,7 +118,8 @@ impl<'a> PlacedBody<'a> {
 
     /// Where the body takes a point that moves with it in the step.
     fn taken_along<S: Scalar>(&self, p: Vector<S>) -> Vector<S> {
-        if self.moves { p.taken_by(&self.now_from_before) } else { p }
+        let p = if self.moves { p.taken_by(&self.now_from_before) } else { p };
+        self.bent(p.value()).map_or(p, |bent| p + bent.into())
     }
 
     /// Keeps a segment that would move along `direction`, with this `increment`, out of the body, and returns how far
@@ -251,7 +254,11 @@ impl<'a> PlacedBody<'a> {
 
     /// The sample at a point of head space; `None` far away.
     fn reading(&self, p: DVec3, surface: Surface) -> Option<Reading> {
-        self.body.surface(surface).read(self.body_from_head.transform_point3(p).as_vec3(), self.frame)
+        self.body.surface(surface).read_during(
+            self.body_from_head.transform_point3(p).as_vec3(),
+            self.frame,
+            self.until,
+        )
     }
 
     /// The motion of a point at `p` by the bending of the body in a step, besides the motion of its space; without its derivatives.

@@ -30,7 +30,8 @@ pub(in crate::dynamics) struct Strand<S> {
     residual: Vec<Vector<S>>,
     /// Root first (head space, cm).
     positions: Vec<Vector<S>>,
-    /// How far the head's turn has left each point behind in a step.
+    /// How far skin has taken each point along in a step, and how far in all that and the head's turn have moved it.
+    ridden: Vec<Vector<S>>,
     shifted: Vec<Vector<S>>,
     /// The distance of each node from touching a body at the beginning of a step.
     clear: Vec<S>,
@@ -148,6 +149,7 @@ impl<S: Scalar> Strand<S> {
             blown,
             residual,
             positions,
+            ridden: shifted.clone(),
             shifted,
             clear,
             kept_from: meets,
@@ -197,6 +199,7 @@ impl<S: Scalar> Strand<S> {
             blown: vectors(&known.blown),
             residual: vectors(&known.residual),
             positions: vectors(&known.positions),
+            ridden: vec![Vector::zero(); known.positions.len()],
             shifted: vec![Vector::zero(); known.positions.len()],
             clear: vec![S::from(f64::INFINITY); known.segments.len()],
             kept_from: known.kept_from.clone(),
@@ -225,16 +228,22 @@ impl<S: Scalar> Strand<S> {
     /// Moves it by one frame. `crowd`: the neighbours' grid of the frame before.
     #[inline(always)]
     pub fn step(&mut self, common: &Common, air: &impl Air<S>, crowd: Option<&Crowd>) {
-        let mut rides = self.ride(common);
-        self.blow(common, air, crowd);
-        let share = 1.0 / common.bodies.len() as f64;
-        let turn = self.ride.map_or(common.head.turn, |ride| ride.turn);
-        for bodies in &common.bodies {
-            self.is_shifted = rides || turn.is_some();
-            if self.is_shifted && !rides {
+        let carrier = self.on_skin.as_ref().zip(common.skin.as_ref());
+        let ride = carrier.map(|((place, anchor), skin)| skin.ride(place, *anchor));
+        let (steps, turn) = (common.bodies.len() as u32, ride.map_or(common.head.turn, |ride| ride.turn));
+        let share = 1.0 / f64::from(steps);
+        self.ride = ride;
+        for (n, bodies) in (1..).zip(&common.bodies) {
+            self.is_shifted = ride.is_some() || turn.is_some();
+            if self.is_shifted {
                 self.shifted.copy_from_slice(&self.positions);
             }
-            rides = false;
+            if let Some(ride) = &ride {
+                self.go_along(ride, n, steps);
+            }
+            if n == 1 {
+                self.blow(common, air, crowd);
+            }
             if let Some((axis, angle)) = turn {
                 self.segments.iter_mut().for_each(|segment| segment.stay_behind(axis, angle, share));
                 self.place();
@@ -258,26 +267,27 @@ impl<S: Scalar> Strand<S> {
         }
     }
 
-    /// Takes it along with its skin, and says whether it has one.
+    /// Takes it along with its skin in step `n` of the `steps` of the frame.
     #[inline(always)]
-    fn ride(&mut self, common: &Common) -> bool {
-        let carrier = self.on_skin.as_ref().zip(common.skin.as_ref());
-        self.ride = carrier.map(|((place, anchor), skin)| skin.ride(place, *anchor));
-        let Some(ride) = self.ride else { return false };
-        self.shifted.copy_from_slice(&self.positions);
-        self.chain.from_rest = Some(ride.from_rest.into());
-        let carried = Turn::from(ride.carried);
+    fn go_along(&mut self, ride: &Ride, n: u32, steps: u32) {
+        let (root, from_rest) = ride.at(n, steps);
+        let carried = ride.carried(1.0 / f64::from(steps));
+        self.chain.from_rest = Some(from_rest.into());
         for segment in &mut self.segments {
             if segment.moved_by.lightness == 0.0 {
                 segment.direction = self.chain.turned_from_rest(segment.moved_by.rest);
-            } else if ride.carried != DQuat::IDENTITY {
+            } else if carried != DQuat::IDENTITY {
+                let carried = Turn::from(carried);
                 segment.direction = carried.of(segment.direction);
                 segment.increment = carried.of(segment.increment);
             }
         }
-        self.positions[0] = ride.root.into();
+        self.ridden.copy_from_slice(&self.positions);
+        self.positions[0] = root.into();
         self.place();
-        true
+        for (ridden, p) in self.ridden.iter_mut().zip(&self.positions) {
+            *ridden = *p - *ridden;
+        }
     }
 
     /// Puts it to rest on skin of this shape.
@@ -347,7 +357,8 @@ impl<S: Scalar> Strand<S> {
             let (at, shifted) = (self.positions[i + 1], self.shifted[i + 1]);
             let shifted = if self.is_shifted { shifted } else { Vector::zero() };
             let none = S::from(0.0);
-            let moving = Moving { at, shifted, velocity: speed, acceleration: net, pressed: none };
+            let ridden = self.ridden[i + 1];
+            let moving = Moving { at, ridden, shifted, velocity: speed, acceleration: net, pressed: none };
             let clear = |b: usize| bodies[b].clear(self.kept_from[b][i + 1], &moving);
             // The push of the step before belongs to the nearest body.
             let nearest = (1..bodies.len()).fold(0, |nearest, b| if clear(b) < clear(nearest) { b } else { nearest });
