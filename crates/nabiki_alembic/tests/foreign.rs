@@ -114,3 +114,15 @@ fn of_meshes_those_are_read_that_are_wanted_and_that_they_bend_is_said() {
     assert_eq!(file.meshes_unread(&|_| true).unwrap(), [said]);
     assert_eq!(file.meshes_unread(&|_| false).unwrap(), [""; 0]);
 }
+
+/// It bends by one along z a frame, and its transform goes by ten along x.
+#[test]
+fn a_mesh_bends_between_its_samples() {
+    let mut file = archive("late.abc");
+    let times = file.bending_times(&|_| true).unwrap();
+    assert_eq!((times.len(), times[0]), (11, 0.0));
+    for frame in [0.0, 2.5, 10.0] {
+        let found = file.bent_meshes(&|_| true, frame / 24.0).unwrap()[0];
+        assert!(found.distance(Vec3::new(10.0 * frame as f32, 0.0, frame as f32)) < 1e-4, "frame {frame}: {found}");
+    }
+}

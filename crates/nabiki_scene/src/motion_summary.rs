@@ -67,11 +67,15 @@ impl FrameSummary {
     }
 }
 
-/// The bodies besides the head, with their poses in a frame.
+/// The bodies, with their poses in a frame: with the head if that bends, else besides it.
 fn others(built: &BuiltScene, frame: u32) -> Vec<(&Body, Affine3A)> {
     let Form::Free(free) = &built.dynamics.form else { return Vec::new() };
     let head = built.pose(frame);
-    free.bodies.iter().skip(1).map(|body| (body, body.head_from_body(frame, &head).inverse())).collect()
+    free.bodies
+        .iter()
+        .skip(usize::from(built.skin(frame).is_none()))
+        .map(|body| (body, body.head_from_body(frame, &head).inverse()))
+        .collect()
 }
 
 fn depth(built: &BuiltScene, others: &[(&Body, Affine3A)], frame: u32, p: Vec3) -> f32 {
@@ -79,7 +83,9 @@ fn depth(built: &BuiltScene, others: &[(&Body, Affine3A)], frame: u32, p: Vec3) 
         let reading = body.shape.obstacle().read(body_from_head.transform_point3(p), frame);
         reading.map_or(0.0, |reading| -reading.distance)
     };
-    others.iter().map(in_body).fold(built.model.head.depth(p), f32::max)
+    let bends = built.skin(frame).is_some() && !others.is_empty();
+    let in_head = if bends { 0.0 } else { built.model.head.depth(p) };
+    others.iter().map(in_body).fold(in_head, f32::max)
 }
 
 /// How far a point goes back the way it came.

@@ -347,3 +347,49 @@ fn joints_that_are_to_be_blended_otherwise_are_said() {
         assert_eq!((count(&said), count(&stage.mesh_unread().unwrap())), (expected, expected), "{method}: {said:?}");
     }
 }
+
+/// Joints bend a mesh after its blend shapes: as usd-core bakes it.
+#[test]
+fn a_mesh_bends_by_its_joints_and_blend_shapes() {
+    let rig = Rig {
+        animation: "uniform token[] joints = [\"hips\", \"hips/head\"]\n uniform token[] blendShapes = [\"smile\", \"frown\"]\n\
+                    float3[] translations.timeSamples = { 1: [(0, 90, 0), (0, 65, 0)], 11: [(10, 90, 0), (0, 75, 0)] }\n\
+                    float[] blendShapeWeights.timeSamples = { 3: [0, 9], 13: [1, 9] }\n\
+                    quatf[] rotations = [(1, 0, 0, 0), (1, 0, 0, 0)]\n half3[] scales = [(1, 1, 1), (1, 1, 1)]"
+            .to_owned(),
+        own: [
+            BOND,
+            "int[] primvars:skel:jointIndices = [0, 1, 0, 1, 0, 1] ( elementSize = 2 interpolation = \"vertex\" )",
+            "float[] primvars:skel:jointWeights = [1, 0, 0.5, 0.5, 0, 1] ( elementSize = 2 interpolation = \"vertex\" )",
+            "uniform token[] skel:blendShapes = [\"smile\"]\n rel skel:blendShapeTargets = </char/head/smile>\n\
+             def BlendShape \"smile\" { uniform vector3f[] offsets = [(0, 0, 2)]\n uniform int[] pointIndices = [1] }",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+        ..Rig::default()
+    };
+    let mut stage = reader(&rig.text(false));
+    let codes = [1.0, 3.0, 11.0, 13.0].map(|code: f64| code / 24.0);
+    assert_eq!(stage.bending_times(&|_| true).unwrap(), codes);
+    assert!(stage.bending_times(&|mesh| mesh == "/none").unwrap().is_empty());
+    for (code, expected) in [
+        (1.0, [[100.0, 155.0, 0.0], [100.0, 160.0, 0.0], [101.0, 155.0, 0.0]]),
+        (11.0, [[110.0, 155.0, 0.0], [110.0, 165.0, 1.6], [111.0, 165.0, 0.0]]),
+        (13.0, [[110.0, 155.0, 0.0], [110.0, 165.0, 2.0], [111.0, 165.0, 0.0]]),
+    ] {
+        let found = stage.bent_meshes(&|_| true, code / 24.0).unwrap();
+        found.into_iter().zip(expected).for_each(|(found, expected)| is_near(found, expected, &format!("code {code}")));
+    }
+    // What moves it lasts as long as its skin bends.
+    assert_eq!(stage.motion("/char/head").unwrap().last().unwrap().time, 11.0 / 24.0, "as long as its joints move");
+}
+
+#[test]
+fn a_mesh_whose_points_move_bends_between_its_samples() {
+    let mesh = "def Mesh \"face\" { int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]\n\
+                point3f[] points.timeSamples = { 0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], 4: [(0, 0, 8), (1, 0, 0), (0, 1, 0)] } }";
+    let mut stage = reader(mesh);
+    assert_eq!(stage.bending_times(&|_| true).unwrap(), [0.0, 4.0 / 24.0]);
+    is_near(stage.bent_meshes(&|_| true, 3.0 / 24.0).unwrap()[0], [0.0, 0.0, 6.0], "three quarters of the way");
+    assert_eq!(stage.motion("/face").unwrap().len(), 5, "a frame for each code");
+}

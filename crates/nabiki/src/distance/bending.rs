@@ -283,13 +283,18 @@ impl Sampler<'_> {
         let mut coarse = vec![f32::NAN; nodes.element_product() as usize];
         let mut block_of = vec![COARSE; self.cells.element_product() as usize];
         let (mut fine, mut moved) = (Vec::new(), Vec::new());
-        for (number, triangles) in self.triangles_by_cell(&shape) {
+        let (starts, triangles) = self.triangles_by_cell(&shape);
+        for (number, range) in (0..).zip(starts.windows(2)) {
+            let triangles = &triangles[range[0] as usize..range[1] as usize];
+            if triangles.is_empty() {
+                continue;
+            }
             let c = UVec3::new(
                 number % self.cells.x,
                 number / self.cells.x % self.cells.y,
                 number / (self.cells.x * self.cells.y),
             );
-            let Some((block, corners)) = self.block(&shape, low + cell * c.as_vec3(), &triangles) else { continue };
+            let Some((block, corners)) = self.block(&shape, low + cell * c.as_vec3(), triangles) else { continue };
             for (k, corner) in corner_nodes().enumerate() {
                 let node = c + UVec3::new(k as u32 & 1, k as u32 >> 1 & 1, k as u32 >> 2);
                 coarse[((node.z * ny + node.y) * nx + node.x) as usize] = block[corner];
@@ -308,32 +313,46 @@ impl Sampler<'_> {
         Frame { skin: SkinDistance { tree: OnceLock::new(), mesh: Mesh::default(), samples }, moved, farthest }
     }
 
-    /// The cells within the band around triangles, each with these, by their numbers.
-    fn triangles_by_cell(&self, shape: &Shape) -> Vec<(u32, Vec<u32>)> {
-        let cell = self.spacing * FINE as f32;
-        let mut pairs: Vec<(u32, u32)> = Vec::new();
-        for t in 0..shape.topology.triangles.len() as u32 {
-            let [a, b, c] = shape.triangle(t);
-            let from = (a.min(b).min(c) - self.band - self.low) / cell;
-            let to = (a.max(b).max(c) + self.band - self.low) / cell;
-            if to.cmplt(Vec3::ZERO).any() || from.cmpge(self.cells.as_vec3()).any() {
-                continue;
-            }
-            let (from, to) = (from.max(Vec3::ZERO).as_uvec3(), to.as_uvec3().min(self.cells - 1));
-            for z in from.z..=to.z {
-                for y in from.y..=to.y {
-                    pairs.extend((from.x..=to.x).map(|x| ((z * self.cells.y + y) * self.cells.x + x, t)));
+    /// The triangles within the band of each cell: where those of a cell begin, one after another, and all of them.
+    fn triangles_by_cell(&self, shape: &Shape) -> (Vec<u32>, Vec<u32>) {
+        let count = self.cells.element_product() as usize;
+        let each = |visit: &mut dyn FnMut(usize, u32)| {
+            for t in 0..shape.topology.triangles.len() as u32 {
+                let Some([from, to]) = self.cells_about(shape.triangle(t)) else { continue };
+                for z in from.z..=to.z {
+                    for y in from.y..=to.y {
+                        let row = ((z * self.cells.y + y) * self.cells.x) as usize;
+                        (from.x..=to.x).for_each(|x| visit(row + x as usize, t));
+                    }
                 }
             }
+        };
+        let mut starts = vec![0_u32; count + 1];
+        each(&mut |cell, _| starts[cell + 1] += 1);
+        for cell in 0..count {
+            starts[cell + 1] += starts[cell];
         }
-        pairs.sort_unstable();
-        pairs.chunk_by(|a, b| a.0 == b.0).map(|of| (of[0].0, of.iter().map(|pair| pair.1).collect())).collect()
+        let (mut next, mut all) = (starts.clone(), vec![0; starts[count] as usize]);
+        each(&mut |cell, t| {
+            all[next[cell] as usize] = t;
+            next[cell] += 1;
+        });
+        (starts, all)
+    }
+
+    /// The first and last cell within the band of a triangle, if there is any.
+    fn cells_about(&self, [a, b, c]: [Vec3; 3]) -> Option<[UVec3; 2]> {
+        let cell = self.spacing * FINE as f32;
+        let from = (a.min(b).min(c) - self.band - self.low) / cell;
+        let to = (a.max(b).max(c) + self.band - self.low) / cell;
+        let outside = to.cmplt(Vec3::ZERO).any() || from.cmpge(self.cells.as_vec3()).any();
+        (!outside).then(|| [from.max(Vec3::ZERO).as_uvec3(), to.as_uvec3().min(self.cells - 1)])
     }
 
     /// The samples of a cell with this lower corner, and the motion of the skin at its corners; `None` if no triangle is within the
     /// band of any.
     fn block(&self, shape: &Shape, corner: Vec3, triangles: &[u32]) -> Option<([f32; BLOCK], [Vec3; 8])> {
-        let (mut squares, mut nearest) = ([self.band * self.band; BLOCK], [u32::MAX; BLOCK]);
+        let (mut distances, mut nearest) = ([self.band; BLOCK], [u32::MAX; BLOCK]);
         for &t in triangles {
             let [a, b, c] = shape.triangle(t);
             // Only samples in the box around the triangle.
@@ -343,15 +362,22 @@ impl Sampler<'_> {
                 continue;
             }
             let (from, to) = (from.as_uvec3(), to.as_uvec3());
+            let middle = (a + b + c) / 3.0;
+            let radius = [a, b, c].map(|corner| corner.distance_squared(middle)).into_iter().fold(0.0, f32::max).sqrt();
             for k in from.z..=to.z {
                 for j in from.y..=to.y {
                     for i in from.x..=to.x {
                         let p = corner + self.spacing * UVec3::new(i, j, k).as_vec3();
-                        let weights = weights([a, b, c], p);
-                        let square = p.distance_squared(weights.x * a + weights.y * b + weights.z * c);
                         let at = (k as usize * EDGE + j as usize) * EDGE + i as usize;
-                        if square < squares[at] {
-                            (squares[at], nearest[at]) = (square, t);
+                        // Most triangles are farther away than one that was looked at before.
+                        let near = distances[at] + radius;
+                        if p.distance_squared(middle) >= near * near {
+                            continue;
+                        }
+                        let weights = weights([a, b, c], p);
+                        let distance = p.distance(weights.x * a + weights.y * b + weights.z * c);
+                        if distance < distances[at] {
+                            (distances[at], nearest[at]) = (distance, t);
                         }
                     }
                 }
@@ -367,7 +393,7 @@ impl Sampler<'_> {
         let mut block = [f32::NAN; BLOCK];
         for at in 0..BLOCK {
             if nearest[at] != u32::MAX {
-                block[at] = shape.sign_and_motion(place(at), nearest[at]).0 * squares[at].sqrt();
+                block[at] = shape.sign_and_motion(place(at), nearest[at]).0 * distances[at];
             }
         }
         // Farther away than the band, on the side of their neighbours.

@@ -340,3 +340,61 @@ fn strips_and_fans_are_triangles_and_loose_edges_beside_them_are_left_out() {
         assert!(refused.contains(&format!("holds {what} and no triangles")), "{refused}");
     }
 }
+
+/// Of a triangle the first vertex hangs on a joint that stays, the last on one that rises by 4 in a second, the other on both; a morph
+/// moves that one by 2 along z at full weight.
+#[test]
+fn a_clip_bends_a_mesh_by_joints_and_morphs() {
+    let numbers: Vec<f32> = [
+        vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+        vec![0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0],
+        vec![1.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        vec![0.0, 1.0],
+        vec![0.0, 0.0, 0.0, 0.0, 4.0, 0.0],
+        vec![0.0, 1.0],
+    ]
+    .concat();
+    let mut binary: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+    binary.extend([0, 1, 0, 0].repeat(3));
+    let view = |at: usize, length: usize| format!(r#"{{"buffer":0,"byteOffset":{at},"byteLength":{length}}}"#);
+    let views = [view(0, 36), view(36, 36), view(72, 48), view(120, 8), view(128, 24), view(152, 8), view(160, 12)];
+    let of = |view: usize, kind: u32, count: usize, shape: &str| {
+        format!(
+            r#"{{"bufferView":{view},"componentType":{kind},"count":{count},"type":"{shape}","min":[0,0,0],"max":[1,1,0]}}"#
+        )
+    };
+    let accessors = [
+        of(0, 5126, 3, "VEC3"),
+        of(1, 5126, 3, "VEC3"),
+        of(2, 5126, 3, "VEC4"),
+        of(3, 5126, 2, "SCALAR"),
+        of(4, 5126, 2, "VEC3"),
+        of(5, 5126, 2, "SCALAR"),
+        of(6, 5121, 3, "VEC4"),
+    ];
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1,2]}}],
+        "nodes":[{{"name":"still"}},{{"name":"rising"}},{{"name":"face","mesh":0,"skin":0}}],
+        "skins":[{{"joints":[0,1]}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":6,"WEIGHTS_0":2}},"targets":[{{"POSITION":1}}]}}]}}],
+        "animations":[{{"samplers":[{{"input":3,"output":4}},{{"input":3,"output":5}}],"channels":[
+        {{"sampler":0,"target":{{"node":1,"path":"translation"}}}},{{"sampler":1,"target":{{"node":2,"path":"weights"}}}}]}}],
+        "accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}}"#,
+        accessors.join(","),
+        views.join(","),
+        binary.len()
+    );
+    let bytes = crate::gltf_file::tests::glb(&json, &binary);
+    assert!(bends(&bytes, None, &[], "").unwrap());
+    let mut frames = Vec::new();
+    each_bent(&bytes, None, &[], "", &[0.0, 0.25, 1.0], &mut |n, all| {
+        assert_eq!(n, frames.len());
+        frames.push(all);
+        Ok(())
+    })
+    .unwrap();
+    for (share, frame) in [0.0, 0.25, 1.0].into_iter().zip(frames) {
+        let expected = [Vec3::ZERO, Vec3::new(1.0, 2.0 * share, 2.0 * share), Vec3::new(0.0, 1.0 + 4.0 * share, 0.0)];
+        frame.iter().zip(expected).for_each(|(p, q)| assert!(p.distance(q) < 1e-6, "{share}: {p} for {q}"));
+    }
+}

@@ -1,0 +1,139 @@
+//! A head whose skin bends in its own file: hair goes along, stays out, and the head is drawn as it is.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use glam::{DAffine3, DVec3};
+use nabiki::dynamics::Form;
+use nabiki_io::exchange;
+use nabiki_scene::exports::ExportOptions;
+use nabiki_scene::tasks::{NewOptions, SimulateOptions, Twin, new, simulate};
+use nabiki_scene::told::SceneSummary;
+use nabiki_scene::{Scene, Shown, Unwatched};
+
+const LAST: usize = 6;
+const ROWS: usize = 16;
+const COLUMNS: usize = 20;
+
+/// A vertex of a ball of 10 cm, at 150 cm, in a frame: its right half swells.
+fn vertex(row: usize, column: usize, n: usize) -> DVec3 {
+    let down = std::f64::consts::PI * row as f64 / ROWS as f64;
+    let around = std::f64::consts::TAU * column as f64 / COLUMNS as f64;
+    let out = DVec3::new(down.sin() * around.cos(), down.cos(), down.sin() * around.sin());
+    let swell = 1.0 + 0.2 * out.z.max(0.0) * (0.5 * n as f64).sin();
+    DVec3::Y * 150.0 + 10.0 * swell * out
+}
+
+/// Rows and columns of the vertices from which a strand grows.
+fn roots() -> impl Iterator<Item = (usize, usize)> {
+    (1..7).flat_map(|row| (0..COLUMNS).step_by(2).map(move |column| (row, column)))
+}
+
+/// The head and its hair, which stands still. `fewer`: the last frame lacks a vertex.
+fn layer(fewer: bool) -> String {
+    let points = |n: usize| {
+        let all = (0..=ROWS).flat_map(|row| (0..COLUMNS).map(move |column| vertex(row, column, n)));
+        let count = (ROWS + 1) * COLUMNS - usize::from(fewer && n == LAST);
+        all.take(count).map(|p| format!("({}, {}, {})", p.x, p.y, p.z)).collect::<Vec<_>>().join(", ")
+    };
+    let samples = (0..=LAST).fold(String::new(), |mut text, n| {
+        write!(text, "{n}: [{}], ", points(n)).unwrap();
+        text
+    });
+    let at = |row: usize, column: usize| row * COLUMNS + column % COLUMNS;
+    let squares = (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row, column)));
+    let corners: Vec<String> = squares
+        .flat_map(|(r, c)| [at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c)])
+        .map(|v| v.to_string())
+        .collect();
+    let strands: Vec<String> = roots()
+        .flat_map(|(row, column)| {
+            let root = vertex(row, column, 0);
+            let out = (root - DVec3::Y * 150.0).normalize();
+            (0..9).map(move |i| root + f64::from(i) * (out - DVec3::Y * 0.1 * f64::from(i)).normalize())
+        })
+        .map(|p| format!("({}, {}, {})", p.x, p.y, p.z))
+        .collect();
+    let count = roots().count();
+    format!(
+        "#usda 1.0\n( metersPerUnit = 0.01\n upAxis = \"Y\"\n startTimeCode = 0\n endTimeCode = {LAST}\n timeCodesPerSecond = 24\n \
+         framesPerSecond = 24 )\n\
+         def Mesh \"face\" {{ point3f[] points.timeSamples = {{ {samples} }}\n int[] faceVertexCounts = [{}]\n \
+         int[] faceVertexIndices = [{}] }}\n\
+         def BasisCurves \"hair\" {{ uniform token type = \"linear\"\n int[] curveVertexCounts = [{}]\n point3f[] points = [{}] }}\n",
+        vec!["4"; ROWS * COLUMNS].join(", "),
+        corners.join(", "),
+        vec!["9"; count].join(", "),
+        strands.join(", ")
+    )
+}
+
+fn made(folder: &Path, fewer: bool) -> nabiki_scene::Result<()> {
+    std::fs::write(folder.join("face.usda"), layer(fewer)).unwrap();
+    let face = folder.join("face.usda");
+    new(&folder.join("scene.toml"), &NewOptions { head: Some(face.clone()), hair: Some(face) }, &mut Unwatched)
+}
+
+#[test]
+fn a_new_scene_of_a_head_that_bends_moves_its_hair_with_the_skin() {
+    let folder = tempfile::tempdir().unwrap();
+    made(folder.path(), false).unwrap();
+    let scene = Scene::load(&folder.path().join("scene.toml"), &[]).unwrap();
+    assert_eq!(scene.motion.frames as usize, LAST, "as long as it bends");
+    let built = scene.build(Shown::All).unwrap();
+    let summary = SceneSummary::of(&built);
+    assert_eq!(summary.skin.as_deref(), Some("its skin bends, and carries 60 roots on 60 triangles"));
+    assert!(summary.unread.iter().all(|line| !line.contains("first frame")), "{:?}", summary.unread);
+
+    // The head is a body that is where its skin is.
+    let Form::Free(free) = &built.dynamics.form else { panic!("a new scene is in the free form") };
+    let head = free.bodies[0].shape.obstacle();
+    for n in 0..=LAST {
+        let world = built.pose(n as u32).world_from_head();
+        let skin = built.skin(n as u32).unwrap();
+        for (row, column) in roots() {
+            let p = world.inverse().transform_point3(vertex(row, column, n).as_vec3());
+            let nearest = skin.iter().map(|v| v.distance(p)).fold(f32::INFINITY, f32::min);
+            assert!(nearest < 1e-4, "frame {n}: {nearest} cm");
+            // Between the samples, a third of a centimetre apart, of a coarse ball.
+            let off = head.read(p, n as u32).unwrap().distance.abs();
+            assert!(off < 0.06, "frame {n}: {off} cm");
+        }
+    }
+
+    let options = SimulateOptions {
+        output: folder.path().join("moved.usdc"),
+        exports: ExportOptions::default(),
+        twin: Twin::Fast,
+        shard: None,
+    };
+    simulate(built, &options, "", &mut Unwatched).unwrap();
+    let mut hair = exchange::MovingHair::open(&options.output, None).unwrap();
+    assert_eq!(hair.frames(), LAST + 1);
+    for n in 0..=LAST {
+        let (strands, world): (_, DAffine3) = hair.frame(n).unwrap();
+        for (s, (row, column)) in roots().enumerate() {
+            let root = world.transform_point3(strands.strand(s)[0].as_dvec3());
+            let off = root.distance(vertex(row, column, n));
+            // Single precision at 150 cm.
+            assert!(off < 1e-4, "frame {n}, strand {s}: {off} cm");
+        }
+    }
+}
+
+#[test]
+fn skin_whose_vertices_change_their_number_is_refused_with_the_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    // `new` leaves such a head still, and says why.
+    made(folder.path(), true).unwrap();
+    let text = std::fs::read_to_string(folder.path().join("scene.toml")).unwrap();
+    assert!(!text.contains("face.usda\", node"), "{text}");
+    let moving = text.replace(
+        "ellipsoid = \"fit\"",
+        "ellipsoid = \"fit\"\nmotion = { file = \"face.usda\", node = \"/face\", facing = \"+x\", bind_at_start = true }",
+    );
+    std::fs::write(folder.path().join("moving.toml"), moving).unwrap();
+    let scene = Scene::load(&folder.path().join("moving.toml"), &["motion.frames=6".to_owned()]).unwrap();
+    let refused = scene.build(Shown::All).unwrap_err().to_string();
+    assert!(refused.contains("face.usda: frame 6 of the motion: its meshes have 339 vertices, and 340"), "{refused}");
+}
