@@ -25,7 +25,7 @@ sys.dont_write_bytecode = True
 from version import ROOT, version
 
 PAPERS = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"]
-SCENES = [".toml", ".obj", ".csv"]
+SCENES = [".toml", ".obj", ".csv", ".md"]
 
 # One date for all files: the earliest that a .zip knows.
 DATE = (1980, 1, 1, 0, 0, 0)

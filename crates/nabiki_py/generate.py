@@ -173,7 +173,7 @@ def modules(schema):
         where |= dict.fromkeys(new, module)
         written[module] = new
     if tables:
-        raise SystemExit(f"no module for the tables {', '.join(tables)}")
+        raise SystemExit(f"no module for {', '.join(tables)}: name each table in MODULES of generate.py")
     result = {}
     for module, classes in written.items():
         used = {}

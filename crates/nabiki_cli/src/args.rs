@@ -21,7 +21,7 @@ use nabiki_scene::{Result, threads};
     after_help = "\
 Start with:
   nabiki preview scenes/gust.toml                     300 strands: a quick look at the wind
-  nabiki preview scenes/gust.toml --set 'force.1.vector=[-600,120,80]'
+  nabiki preview scenes/gust.toml --set \"force.1.vector=[-600,120,80]\"
   nabiki run scenes/gust.toml                         the full movie
 
 A scene is a TOML file. Its tables: head, hair; motion, free, contact, body, neighbours, pseudo_force, disturbance;

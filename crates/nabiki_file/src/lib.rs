@@ -43,6 +43,10 @@ const MARK: &str = ".nabiki-part-";
 /// How often a part file is begun anew that another program took for a stale one.
 const TRIES: u32 = 100;
 
+/// How often a finished file is given its name again, and how long after the try before.
+const PATIENCE: u32 = 15;
+const PAUSE: std::time::Duration = std::time::Duration::from_millis(100);
+
 /// Bytes gathered before they are written.
 const BUFFER: usize = 1 << 20;
 
@@ -115,12 +119,37 @@ impl PartFile {
         on_disk(self.file.get_ref())?;
         let path = self.part.0.take().ok_or_else(|| io::Error::other("the file is finished already"))?;
         open_parts().retain(|open| *open != *path);
-        path.persist(&self.target).map_err(|e| e.error)?;
+        persist(path, &self.target)?;
         // The file is whole under its name by now: a folder that cannot be synchronised does not change that.
         #[cfg(unix)]
         let _ = File::open(folder_of(&self.target)).and_then(|folder| folder.sync_all());
         Ok(())
     }
+}
+
+/// Gives a finished file its name. On Windows another program may have the file open that is there, for an instant or for long: then
+/// the finished file stays beside it.
+fn persist(part: TempPath, target: &Path) -> io::Result<()> {
+    let mut refused = match part.persist(target) {
+        Ok(()) => return Ok(()),
+        Err(refused) => refused,
+    };
+    if cfg!(windows) && refused.error.kind() == io::ErrorKind::PermissionDenied {
+        for _ in 0..PATIENCE {
+            std::thread::sleep(PAUSE);
+            match refused.path.persist(target) {
+                Ok(()) => return Ok(()),
+                Err(again) => refused = again,
+            }
+        }
+        let mut beside = target.as_os_str().to_owned();
+        beside.push(".new");
+        if let Ok(()) = refused.path.persist(&beside) {
+            let line = format!("{}: another program has it open; the result is {}", refused.error, beside.display());
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, line));
+        }
+    }
+    Err(refused.error)
 }
 
 impl Write for PartFile {

@@ -82,6 +82,9 @@ pub fn read_text(path: &Path, most: u64) -> Result<String> {
     if bytes.starts_with(BYTE_ORDER_MARK) {
         bytes.drain(..BYTE_ORDER_MARK.len());
     }
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(Error::new("is UTF-16, as Windows PowerShell writes it: save it as UTF-8").in_file(path));
+    }
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         Error::new(format!("byte {at} is not text (UTF-8): is this the right file?")).in_file(path)
@@ -121,6 +124,8 @@ mod tests {
         assert_eq!(refused(6), format!("{}: is longer than 6 bytes, the most that nabiki reads", path.display()));
         std::fs::write(&path, b"12\xff").unwrap();
         assert!(refused(7).contains("byte 2 is not text"), "{}", refused(7));
+        std::fs::write(&path, b"\xff\xfea\0").unwrap();
+        assert!(refused(7).ends_with("is UTF-16, as Windows PowerShell writes it: save it as UTF-8"));
         // A file full of holes is longer than it takes on the disk, and is refused before any of it is read.
         std::fs::File::create(&path).unwrap().set_len(1 << 40).unwrap();
         assert!(refused(MOST_TEXT_BYTES).contains("is longer than 1 GiB"), "{}", refused(MOST_TEXT_BYTES));

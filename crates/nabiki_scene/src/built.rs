@@ -53,7 +53,7 @@ pub struct BuiltScene {
     /// The poses of the head.
     pub way: Arc<Way>,
     /// How the head's skin bends.
-    pub(crate) bent: Arc<Bent>,
+    pub(crate) bent_head: Arc<Bent>,
     /// The hair at rest.
     pub groom: Arc<Groom>,
     /// The skin under the hair.
@@ -237,12 +237,12 @@ impl BuiltScene {
     /// Phrases about data of the head's file that is not used.
     pub(crate) fn unread_of_head(&self) -> Vec<String> {
         let unread = self.model.report.iter().flat_map(|report| &report.unread);
-        unread.filter(|line| self.bent.frames.is_empty() || !says_rigid(line)).cloned().collect()
+        unread.filter(|line| self.bent_head.frames.is_empty() || !says_rigid(line)).cloned().collect()
     }
 
     /// The vertices of the head's mesh in a frame (head space, cm), if its skin bends.
     pub fn skin(&self, frame: u32) -> Option<&[Vec3]> {
-        let frames = &self.bent.frames;
+        let frames = &self.bent_head.frames;
         frames.get(frame as usize).or(frames.last()).map(Vec::as_slice)
     }
 
@@ -259,14 +259,17 @@ impl BuiltScene {
         all.map(|(i, mesh, _)| DrawnBody { mesh: mesh.clone(), colour: self.scene.bodies[i].colour }).collect()
     }
 
-    /// The vertices of the visible bodies that bend in a frame (body space, cm), each with its index in
-    /// [`drawn_bodies`](Self::drawn_bodies).
-    pub fn bent_bodies(&self, frame: u32) -> impl Iterator<Item = (usize, &[Vec3])> {
+    /// The vertices in a frame (their own space, cm) of all that bends: of the head (`None`) and of visible bodies, by their
+    /// index in [`drawn_bodies`](Self::drawn_bodies). For the renderer.
+    pub fn bent(&self, frame: u32) -> impl Iterator<Item = (Option<usize>, &[Vec3])> {
         let shown = self.scene.bodies.iter().zip(&self.bodies).filter(|(settings, _)| settings.shown);
-        shown.enumerate().filter_map(move |(i, (_, body))| {
-            let frames = &body.frames;
-            Some((i, frames.get(frame as usize).or(frames.last())?.as_slice()))
-        })
+        let bodies = shown.enumerate().filter_map(move |(i, (_, body))| Some((Some(i), body.skin(frame)?)));
+        self.skin(frame).map(|skin| (None, skin)).into_iter().chain(bodies)
+    }
+
+    /// The vertices of a body in a frame (its own space, cm), by its index in the scene, if it bends.
+    pub fn skin_of_body(&self, body: usize, frame: u32) -> Option<&[Vec3]> {
+        self.bodies.get(body)?.skin(frame)
     }
 
     /// World poses of the visible bodies in a frame, in the order of [`drawn_bodies`](Self::drawn_bodies).

@@ -152,7 +152,7 @@ impl<'a> Film<'a> {
         let camera = picture.camera.at(n as f32 / built.frames() as f32);
         let views = View::around(&camera, picture.size, &film.bounds, views);
         let bodies = built.drawn_poses(n);
-        film.bend(n);
+        film.renderer.bend(built.bent(n));
         each_frame(watch, "drawing", 0..=views.len() as u32 - 1, |k| {
             let view = views[k as usize];
             let view = View { eye: view.eye + pose.position_cm, ..view };
@@ -182,18 +182,11 @@ impl<'a> Film<'a> {
         View { eye: view.eye + self.built.pose(n).position_cm, ..view }
     }
 
-    /// Bends head and bodies as in a frame.
-    fn bend(&mut self, n: u32) {
-        let skins = self.built.skin(n).map(|skin| (None, skin));
-        let bodies = self.built.bent_bodies(n).map(|(i, skin)| (Some(i), skin));
-        self.renderer.bend(skins.into_iter().chain(bodies));
-    }
-
     /// The frame, and the view in the space of the forces.
     fn draw(&mut self, n: u32, strands: &Strands) -> Result<(Frame, View)> {
         let previous = self.previous.take();
         let built = self.built;
-        self.bend(n);
+        self.renderer.bend(built.bent(n));
         let (bodies, bodies_before) = (built.drawn_poses(n), built.drawn_poses(n.saturating_sub(1)));
         let moment = |n, strands, bodies| Moment { strands, pose: built.pose(n), view: self.view_in_world(n), bodies };
         let now = moment(n, strands, bodies.as_slice());

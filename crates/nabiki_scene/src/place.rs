@@ -56,7 +56,10 @@ pub fn file(path: &Path) -> Result<()> {
     let target = behind_links(path).map_err(|e| refused(path, "cannot be written there", e, "choose another name"))?;
     let folder = folder_of(&target);
     match writable(folder) {
-        Ok(()) => Ok(()),
+        Ok(()) => replaceable(&target).map_err(|e| {
+            let what = "cannot be replaced: another program has it open, or it is read-only; close it there";
+            refused(path, what, e, "choose another name")
+        }),
         Err(_) if !folder.exists() => {
             let what = format!("there is no folder {}; make it, or choose another", folder.display());
             Err(Error::place(path, what, ErrorKind::NotFound))
@@ -180,10 +183,20 @@ fn are_one_where_capitals_do_not_count([a, b]: &[PathBuf; 2]) -> bool {
 
 /// Refuses a name of something other than an ordinary file. An existing file is replaced when the new one is complete.
 pub fn free(path: &Path, way_out: &str) -> Result<()> {
+    if cfg!(windows)
+        && let Some(why) = path.file_name().and_then(|name| no_name_in_windows(&name.to_string_lossy()))
+    {
+        let what = format!("{why}, so Windows does not take it as the name of a file; {way_out}");
+        return Err(Error::place(path, what, ErrorKind::InvalidFilename));
+    }
     let (is, system) = match fs::metadata(path) {
         Ok(there) if there.is_dir() => ("a folder", ErrorKind::IsADirectory),
         Ok(there) if !there.is_file() => ("a device or a pipe", ErrorKind::AlreadyExists),
         Ok(_) => return Ok(()),
+        // On Linux one that is too long.
+        Err(e) if e.kind() == ErrorKind::InvalidFilename => {
+            return Err(refused(path, "cannot be the name of a file", e, way_out));
+        }
         Err(_) => return leads_to_a_folder(path, way_out),
     };
     Err(Error::place(path, format!("this is {is}, not a file; move it away, or {way_out}"), system))
@@ -201,6 +214,35 @@ fn leads_to_a_folder(path: &Path, way_out: &str) -> Result<()> {
     Err(Error::place(path, what, ErrorKind::NotFound))
 }
 
+/// Why Windows does not take a name for a file, as a phrase that follows the name; `None` if it does.
+fn no_name_in_windows(name: &str) -> Option<&'static str> {
+    let device = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
+    let numbered = |kind: &str| device.strip_prefix(kind).is_some_and(|n| n.len() == 1 && ("1"..="9").contains(&n));
+    if ["CON", "PRN", "AUX", "NUL"].contains(&&*device) || numbered("COM") || numbered("LPT") {
+        return Some("is the name of a device");
+    }
+    if name.contains(|c: char| c.is_control() || "<>:\"|?*".contains(c)) {
+        return Some("has one of < > : \" | ? *, or a control character");
+    }
+    name.ends_with(['.', ' ']).then_some("ends with a dot or a blank")
+}
+
+/// Whether an existing file can be replaced: on Windows not one that another program has open without sharing it for deletion.
+fn replaceable(path: &Path) -> std::io::Result<()> {
+    #[cfg(windows)]
+    {
+        use std::os::windows::fs::OpenOptionsExt;
+        const DELETE: u32 = 0x0001_0000;
+        const SHARED_FOR_ALL: u32 = 7;
+        match fs::OpenOptions::new().access_mode(DELETE).share_mode(SHARED_FOR_ALL).open(path) {
+            Err(e) if e.kind() != ErrorKind::NotFound => return Err(e),
+            _ => {}
+        }
+    }
+    let _ = path;
+    Ok(())
+}
+
 /// Whether a folder is writable: creates a file without a name there.
 fn writable(folder: &Path) -> std::io::Result<()> {
     tempfile::tempfile_in(folder).map(drop)
@@ -209,4 +251,38 @@ fn writable(folder: &Path) -> std::io::Result<()> {
 fn refused(path: &Path, what: &str, source: std::io::Error, way_out: &str) -> Error {
     let system = source.kind();
     Error::place(path, format!("{what}: {}; {way_out}", nabiki_io::Error::from(source).what), system)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_windows_refuses_are_known() {
+        for name in
+            ["a?.usdc", "b|.abc", "hair:x.abc", "aux.abc", "CON.usdc", "nul", "Lpt3.nabiki", "dot.", "blank ", "a*b"]
+        {
+            assert!(no_name_in_windows(name).is_some(), "{name}");
+        }
+        for name in [
+            "gust.mp4",
+            "auxiliary.abc",
+            "com.usdc",
+            "COM0.abc",
+            "lpt12.abc",
+            ".hidden",
+            "größe 髪.usda",
+            "a'b & c.png",
+        ] {
+            assert_eq!(no_name_in_windows(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_too_long_is_refused_before_the_work() {
+        let folder = tempfile::tempdir().unwrap();
+        let long = folder.path().join("n".repeat(300) + ".abc");
+        let refused = file(&long).unwrap_err().to_string();
+        assert!(refused.contains("choose another name"), "{refused}");
+    }
 }

@@ -55,6 +55,7 @@ pub(crate) use head::{AnyHead, BuiltinHead};
 pub use head::{EllipsoidChoice, HeadSettings, HeadSource, ImportedHead};
 pub use output::{Output, check_first_frame};
 pub use quantity::{Amount, Length, Measure, Quantity, Speed, Strength, Time, Weight};
+pub(crate) use tree::BACKSLASHES;
 
 use read::{Node, Refusal};
 use tree::{Unwritable, table_of};

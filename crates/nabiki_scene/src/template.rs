@@ -488,5 +488,7 @@ fn quoted(scene: &Path, file: &Path) -> Result<String> {
     let (folder, file) = (absolute(folder)?, absolute(file)?);
     let named = file.strip_prefix(&folder).unwrap_or(&file);
     let text = named.to_str().ok_or_else(|| Error::new("a scene is text, but this name is not").in_file(&file))?;
-    Ok(toml::Value::String(text.to_owned()).to_string())
+    // A scene beside its files may go to another system.
+    let text = if named.is_relative() { text.replace(std::path::MAIN_SEPARATOR, "/") } else { text.to_owned() };
+    Ok(toml::Value::String(text).to_string())
 }

@@ -498,3 +498,16 @@ fn a_setting_whose_first_table_was_forgotten_is_found() {
         assert!(refused.ends_with(line), "{refused}");
     }
 }
+
+#[test]
+fn a_path_of_windows_in_double_quotes_is_refused_with_what_helps() {
+    for text in [r#"mesh = "C:\hair\new.obj""#, r#"mesh = "C:\Users\me\new.obj""#] {
+        let refused = Scene::parse(&format!("[head]\n{text}\n"), Path::new("a.toml"), &[]).unwrap_err().to_string();
+        assert!(refused.starts_with("a.toml:2: not TOML: "), "{refused}");
+        assert!(refused.ends_with(r"; in a path, write / or single quotes: 'C:\hair\new.obj'"), "{refused}");
+    }
+    // This one is TOML, with a tab and a line break.
+    let scene = Scene::parse("[head]\nmesh = \"C:\\temp\\new.obj\"\n[hair]\nstrands = 5\n", Path::new("a.toml"), &[]);
+    let refused = scene.unwrap().load_head().unwrap_err().to_string();
+    assert!(refused.contains("has a control character: in a path, write / or single quotes"), "{refused}");
+}

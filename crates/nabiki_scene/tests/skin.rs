@@ -71,7 +71,11 @@ fn layer(fewer: bool) -> String {
 fn made(folder: &Path, fewer: bool) -> nabiki_scene::Result<()> {
     std::fs::write(folder.join("face.usda"), layer(fewer)).unwrap();
     let face = folder.join("face.usda");
-    new(&folder.join("scene.toml"), &NewOptions { head: Some(face.clone()), hair: Some(face) }, &mut Unwatched)
+    new(
+        &folder.join("scene.toml"),
+        &NewOptions { head: Some(face.clone()), hair: Some(face), ..NewOptions::default() },
+        &mut Unwatched,
+    )
 }
 
 #[test]
@@ -80,7 +84,7 @@ fn a_new_scene_of_a_head_that_bends_moves_its_hair_with_the_skin() {
     made(folder.path(), false).unwrap();
     let scene = Scene::load(&folder.path().join("scene.toml"), &[]).unwrap();
     assert_eq!(scene.motion.frames as usize, LAST, "as long as it bends");
-    let built = scene.build(Shown::All).unwrap();
+    let built = scene.clone().build(Shown::All).unwrap();
     let summary = SceneSummary::of(&built);
     assert_eq!(summary.skin.as_deref(), Some("its skin bends, and carries 60 roots on 60 triangles"));
     assert!(summary.unread.iter().all(|line| !line.contains("first frame")), "{:?}", summary.unread);
@@ -107,7 +111,7 @@ fn a_new_scene_of_a_head_that_bends_moves_its_hair_with_the_skin() {
         twin: Twin::Fast,
         shard: None,
     };
-    simulate(built, &options, "", &mut Unwatched).unwrap();
+    simulate(scene, Shown::All, &options, &mut Unwatched).unwrap();
     let mut hair = exchange::MovingHair::open(&options.output, None).unwrap();
     assert_eq!(hair.frames(), LAST + 1);
     for n in 0..=LAST {
@@ -133,7 +137,10 @@ fn skin_whose_vertices_change_their_number_is_refused_with_the_frame() {
         "ellipsoid = \"fit\"\nmotion = { file = \"face.usda\", node = \"/face\", facing = \"+x\", bind_at_start = true }",
     );
     std::fs::write(folder.path().join("moving.toml"), moving).unwrap();
-    let scene = Scene::load(&folder.path().join("moving.toml"), &["motion.frames=6".to_owned()]).unwrap();
+    let mut scene = Scene::load(&folder.path().join("moving.toml"), &[]).unwrap();
+    scene.motion.frames = LAST as u32;
+    scene.field.force.truncate(1);
+    scene.field.force[0].through = LAST as u32;
     let refused = scene.build(Shown::All).unwrap_err().to_string();
     assert!(refused.contains("face.usda: frame 6 of the motion: its meshes have 339 vertices, and 340"), "{refused}");
 }

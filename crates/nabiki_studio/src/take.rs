@@ -56,7 +56,10 @@ impl Take {
     /// What is seen besides head and hair in a frame.
     pub fn bodies(&self, frame: u32) -> Vec<Body<'_>> {
         let colour = |i: usize| self.built.scene.bodies[i].colour;
-        self.built.shown_bodies(frame).map(|(i, mesh, pose)| Body { mesh, colour: colour(i), pose }).collect()
+        self.built
+            .shown_bodies(frame)
+            .map(|(i, mesh, pose)| Body { mesh, skin: self.built.skin_of_body(i, frame), colour: colour(i), pose })
+            .collect()
     }
 
     /// A frame with its `bodies` in a look, for the view to draw.
@@ -70,6 +73,7 @@ impl Take {
             points: self.points(frame),
             share: self.built.groom.of_scene as f32 / strands.len().max(1) as f32,
             head: &self.built.model.head,
+            skin: self.built.skin(frame),
             pose: self.pose(frame),
             bodies,
             picture,

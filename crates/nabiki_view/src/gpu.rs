@@ -40,6 +40,8 @@ pub struct Drawing<'a> {
     pub share: f32,
     /// What it grows on.
     pub head: &'a Head,
+    /// Its vertices now (head space, cm), if its skin bends.
+    pub skin: Option<&'a [Vec3]>,
     /// Where the head is now.
     pub pose: Pose,
     /// What is seen besides.
@@ -59,6 +61,8 @@ pub struct Drawing<'a> {
 pub struct Body<'a> {
     /// Its surface (its own space, cm).
     pub mesh: &'a Mesh,
+    /// Its vertices now (its own space, cm), if it bends.
+    pub skin: Option<&'a [Vec3]>,
     /// Its colour (sRGB, 0..1).
     pub colour: [f32; 3],
     /// Where it is now.
@@ -92,6 +96,8 @@ struct Bodies {
     others: Vec<Surface>,
     of_others: Vec<(usize, [f32; 3])>,
     at: Vec<Affine3A>,
+    /// Where the vertices of head and bodies were read, of those that bend.
+    bent: Vec<Option<usize>>,
     surface: SurfaceOnCard,
 }
 
@@ -278,7 +284,9 @@ impl Gpu {
                 && roots == on_card.roots
         };
         let before = self.bodies.take().filter(same);
-        if before.as_ref().is_some_and(|on_card| on_card.at == at) {
+        let skins = std::iter::once(drawing.skin).chain(bodies.iter().map(|body| body.skin));
+        let bent: Vec<_> = skins.map(|skin| skin.map(|skin| skin.as_ptr() as usize)).collect();
+        if before.as_ref().is_some_and(|on_card| on_card.at == at && on_card.bent == bent) {
             self.bodies = before;
             return;
         }
@@ -295,8 +303,13 @@ impl Gpu {
                 (seen, bodies.iter().map(|body| Surface::of(body.mesh, linear(body.colour))).collect())
             }
         };
-        let mut all = Surface { corners: surface.corners.clone(), indices: surface.indices.clone() };
-        others.iter().zip(&at).for_each(|(other, at)| all.add(other, at));
+        let mut all = surface.bent(&head.mesh, drawing.skin);
+        for ((other, body), at) in others.iter().zip(bodies).zip(&at) {
+            match body.skin {
+                Some(_) => all.add(&other.bent(body.mesh, body.skin), at),
+                None => all.add(other, at),
+            }
+        }
         self.bodies = Some(Bodies {
             roots,
             shade,
@@ -308,6 +321,7 @@ impl Gpu {
             others,
             of_others: of_bodies,
             at,
+            bent,
             surface: SurfaceOnCard::new(&self.device, &self.queue, &all),
         });
     }

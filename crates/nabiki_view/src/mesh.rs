@@ -67,6 +67,18 @@ impl Surface {
         Self { corners: corners.collect(), indices: mesh.triangles.iter().flatten().copied().collect() }
     }
 
+    /// The same with the vertices of `mesh` at other places, if it bends.
+    pub fn bent(&self, mesh: &Mesh, vertices: Option<&[Vec3]>) -> Self {
+        let mut bent = self.clone();
+        if let Some(vertices) = vertices {
+            let mesh = Mesh { positions: vertices.to_vec(), triangles: mesh.triangles.clone(), corner_uvs: None };
+            for ((corner, place), normal) in bent.corners.iter_mut().zip(vertices).zip(mesh.vertex_normals()) {
+                (corner.place, corner.normal) = (place.to_array(), normal.to_array());
+            }
+        }
+        bent
+    }
+
     /// The head, `shade` square centimetres of stubble standing on each root, which stands for `share` of them.
     pub fn head(mesh: &Mesh, skin: Skin, roots: &[Vec3], shade: f32, share: f32) -> Self {
         let scalp = Scalp::new(roots, share);

@@ -48,7 +48,8 @@ settings! {
         pub start_at_origin: bool = false => "Start at origin";
         /// Whether the mesh is already placed as the first frame has it, as in a file that contains both mesh and
         /// motion. The motion then carries the mesh on from there. With a joint of the same USD layer, the mesh is
-        /// placed as the skeleton binds it. Hair that grows on the head goes along.
+        /// placed as the skeleton binds it. Hair that grows on the head goes along. If the mesh bends in that file, so does
+        /// its skin here.
         pub bind_at_start: bool = false => "Bind at start";
     }
 }

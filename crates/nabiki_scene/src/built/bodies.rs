@@ -113,6 +113,11 @@ impl Stage for BuiltBody {
 }
 
 impl BuiltBody {
+    /// Its vertices in a frame, if it bends.
+    pub fn skin(&self, frame: u32) -> Option<&[Vec3]> {
+        self.frames.get(frame as usize).or(self.frames.last()).map(Vec::as_slice)
+    }
+
     /// The body for contact, if it is solid, with the scene's settings.
     pub(super) fn felt(
         &self,

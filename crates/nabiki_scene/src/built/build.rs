@@ -45,7 +45,7 @@ fn build_about(
     let at = At::new(&scene, goes_on);
     let way = Way::of(WayInputs::of(&scene, &model), known.iter().map(|known| &known.way), at)?;
     way.check_length(&scene)?;
-    let bent = Bent::of(BentInputs::of(&scene, &model, &way), known.iter().map(|known| &known.bent), at)?;
+    let bent = Bent::of(BentInputs::of(&scene, &model, &way), known.iter().map(|known| &known.bent_head), at)?;
     let rest_pose = way.poses.first().copied().unwrap_or_default();
     let mut dynamics = dynamics(&scene, &model, rest_pose, at)?;
     let known_grooms = || known.iter().map(|known| &known.groom);
@@ -75,7 +75,7 @@ fn build_about(
     let intervals = scene.field.force.iter().map(|force| force.keyframe(of_speed)).collect();
     let inputs = ForcesInputs::of(&scene, &model, &way, intervals);
     let forces = Forces::of(inputs, known.iter().map(|known| &known.forces), at)?;
-    Ok(BuiltScene { scene, model, way, bent, groom, scalp, forces, dynamics, bodies, of_speed })
+    Ok(BuiltScene { scene, model, way, bent_head: bent, groom, scalp, forces, dynamics, bodies, of_speed })
 }
 
 /// The bound of each field of the scene, and last that of `all` together.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use nabiki::SettingError;
 
 use crate::error::{Error, Result};
-use crate::scene::{Problem, Scene, resolved};
+use crate::scene::{BACKSLASHES, Problem, Scene, resolved};
 
 /// Called regularly, by any thread, with the share done, 0..1; returns whether to go on.
 pub(super) type GoesOn<'a> = &'a (dyn Fn(f32) -> bool + Sync);
@@ -77,9 +77,16 @@ impl<'a> At<'a> {
         if file.as_os_str().is_empty() {
             return Err(self.refusal(SettingError::new(key, &value, "name a file")));
         }
+        if file.to_string_lossy().contains(char::is_control) {
+            let value = format!("{:?}", file.display().to_string());
+            let remedy = format!("has a control character: {BACKSLASHES}");
+            return Err(self.refusal(SettingError::new(key, value, remedy)));
+        }
         match std::fs::metadata(&path) {
             Ok(there) if there.is_dir() => Err(refused("is a folder: name a file".to_owned(), ErrorKind::IsADirectory)),
-            Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            Err(e)
+                if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::InvalidFilename) =>
+            {
                 let remedy = match path == file {
                     true => "there is no such file".to_owned(),
                     false => format!("there is no {}; paths are relative to the scene's folder", path.display()),

@@ -123,6 +123,13 @@ pub(crate) fn parse(
         {
             message = format!("duplicate key {key}: already given above; give it once");
         }
+        let written = e
+            .span()
+            .and_then(|span| text[..span.start.min(text.len())].rsplit('\n').next().zip(text.get(span.start..)));
+        let written = written.map(|(before, after)| format!("{before}{}", after.lines().next().unwrap_or_default()));
+        if written.is_some_and(|line| line.contains('\\') && line.contains('"')) {
+            message += &format!("; {BACKSLASHES}");
+        }
         let problem = Box::new(Problem::NotToml(message));
         SceneError { file: file.to_owned(), line, set: None, key: Key::default(), problem }
     };
@@ -209,6 +216,9 @@ fn set(table: &mut Table, path: &str, text: &str, defaults: &impl Fn() -> Table)
     }
     place(table, path).map(|place| *place = value)
 }
+
+/// What helps where somebody pastes a path of Windows.
+pub(crate) const BACKSLASHES: &str = r"in a path, write / or single quotes: 'C:\hair\new.obj'";
 
 /// Whether a text that is not TOML was meant as a number, a list or a table, and not as a word without its quotes.
 fn begins_as_toml(text: &str) -> bool {

@@ -225,6 +225,7 @@ impl Whole {
         let head = &self.built.model.head;
         let renderer = Renderer::new(&picture, &head.mesh).map_err(says)?.with_face(head);
         let mut renderer = renderer.with_bodies(self.built.drawn_bodies()).map_err(says)?;
+        renderer.bend(self.built.bent(wanted.frame));
         let frame = renderer.draw(&FrameToDraw { now, before }).map_err(says)?;
         Ok(Done { size, rgba: ToneMapping::new(&picture).rgba8(&frame) })
     }

@@ -21,6 +21,7 @@ fn built(strands: usize) -> BuiltScene {
 fn drawing<'a>(built: &'a BuiltScene, picture: &'a Picture, lines: &'a [Line]) -> Drawing<'a> {
     let strands = built.strands();
     Drawing {
+        skin: None,
         strands,
         points: strands.points(),
         share: 1.0,

@@ -86,7 +86,6 @@ proptest! {
         let tolerance = 40.0 * (4e-6 + 4.0 * 8e-6 * (1.0 / out.length() + 1.5 / falloff.radius));
         prop_assert!(force.dot(unit).abs() < tolerance && force.dot(out.normalize()).abs() < tolerance);
         prop_assert!(force.dot(unit.cross(out)) >= -tolerance * out.length());
-        prop_assert!(force.dot(unit.cross(out)) >= -tolerance * out.length());
         let size = 40.0 * falloff.at(out.length()) * out.length() / out.length().hypot(0.05 * falloff.radius);
         prop_assert!((force.length() - size).abs() < tolerance, "{} is not {size}", force.length());
         prop_assert!((field.at(POSITION + p + height * unit, 1) - force).length() < 2.0 * tolerance);
