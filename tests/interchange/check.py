@@ -232,6 +232,18 @@ def rigs(nabiki, python):
     run(python, HERE / "rigs.py", "compare", folder)
 
 
+def skins(nabiki, python):
+    """Roots ride on skin that bends, where usd-core has it."""
+    folder = WORK / "skins"
+    run(python, HERE / "skins.py", "write", folder)
+    for layer in sorted(folder.glob("*.usda")):
+        scene = layer.with_suffix(".toml")
+        run(nabiki, "new", scene, "--head", layer, "--hair", layer, stdout=subprocess.DEVNULL)
+        export = ["--export", folder / f"{layer.stem}.out.usda"]
+        run(nabiki, "simulate", scene, "-o", folder / "skin.nabiki", *export, "--quiet")
+    run(python, HERE / "skins.py", "compare", folder)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
@@ -260,6 +272,7 @@ def main():
     names_are_allowed(nabiki, python)
     made_elsewhere(nabiki, interchange, python)
     rigs(nabiki, python)
+    skins(nabiki, python)
     run(python, HERE / "usd.py", samples)
     run(python, HERE / "alembic.py", samples)
 

@@ -135,7 +135,7 @@ impl MotionSummary {
     pub fn add(&mut self, built: &BuiltScene, frame: u32, strands: &Strands) {
         let [before, earlier] = &self.before;
         let now = FrameSummary::of(built, frame, strands, [before, earlier]);
-        self.met = if others(built, frame).is_empty() { "the head" } else { "the head or a body" };
+        self.met = if built.scene.bodies.is_empty() { "the head" } else { "the head or a body" };
         if frame == 0 {
             self.blamed = blamed(built);
         }

@@ -277,7 +277,8 @@ class MotionSource(Table):
     def bind_at_start(self) -> bool:
         """Whether the mesh is already placed as the first frame has it, as in a file that contains both mesh and motion.
         The motion then carries the mesh on from there. With a joint of the same USD layer, the mesh is placed as the
-        skeleton binds it. Hair that grows on the head goes along. True or false; default: false.
+        skeleton binds it. Hair that grows on the head goes along. If the mesh bends in that file, so does its skin
+        here. True or false; default: false.
         """
         value: bool = self._get('bind_at_start')
         return value
