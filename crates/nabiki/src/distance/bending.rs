@@ -15,10 +15,11 @@ use crate::Mesh;
 use crate::obstacle::{Obstacle, Reading};
 use crate::random::mix;
 
-/// Width of the band beyond the largest clearance, in fine steps.
-const BAND: f32 = 2.0;
-/// Share of the way from sample to sample by which distances grow beyond the band: along a grid, ways are up to 8 % too long.
-const SURE: f32 = 0.9;
+/// Width of the band beyond the largest clearance, in fine steps: the diagonal of a cell, so that all around a clearance is known.
+const BAND: f32 = 1.75;
+/// Share of the way from sample to sample by which distances grow beyond the band: along the axes, ways are up to the root of 3 times
+/// too long.
+const SURE: f32 = 0.57;
 const BLOCK: usize = EDGE * EDGE * EDGE;
 
 /// A skin that bends from frame to frame, as a body that hair stays out of. Outside its frames it keeps the shape of the first or the
@@ -361,19 +362,27 @@ impl Sampler<'_> {
             if from.cmpgt(to).any() {
                 continue;
             }
-            let (from, to) = (from.as_uvec3(), to.as_uvec3());
+            let ([i0, j0, k0], [i1, j1, k1]) = (from.as_uvec3().to_array(), to.as_uvec3().to_array());
             let middle = (a + b + c) / 3.0;
             let radius = [a, b, c].map(|corner| corner.distance_squared(middle)).into_iter().fold(0.0, f32::max).sqrt();
-            for k in from.z..=to.z {
-                for j in from.y..=to.y {
-                    for i in from.x..=to.x {
-                        let p = corner + self.spacing * UVec3::new(i, j, k).as_vec3();
-                        let at = (k as usize * EDGE + j as usize) * EDGE + i as usize;
+            let (reach, away) = (self.band + radius, corner - middle);
+            for k in k0..=k1 {
+                let z = away.z + self.spacing * k as f32;
+                for j in j0..=j1 {
+                    let y = away.y + self.spacing * j as f32;
+                    let beside = y * y + z * z;
+                    if beside >= reach * reach {
+                        continue;
+                    }
+                    let row = (k as usize * EDGE + j as usize) * EDGE;
+                    for i in i0..=i1 {
+                        let (x, at) = (away.x + self.spacing * i as f32, row + i as usize);
                         // Most triangles are farther away than one that was looked at before.
                         let near = distances[at] + radius;
-                        if p.distance_squared(middle) >= near * near {
+                        if x * x + beside >= near * near {
                             continue;
                         }
+                        let p = middle + Vec3::new(x, y, z);
                         let weights = weights([a, b, c], p);
                         let distance = p.distance(weights.x * a + weights.y * b + weights.z * c);
                         if distance < distances[at] {
@@ -415,34 +424,36 @@ fn corner_nodes() -> impl Iterator<Item = usize> {
     (0..8).map(|k| ((k >> 2) * EDGE + (k >> 1 & 1)) * EDGE * FINE + (k & 1) * FINE)
 }
 
-/// Fills samples that are not numbers from their neighbours, with the sign of the nearest, each step farther away by `step`.
+/// Fills samples that are not numbers from their neighbours along the axes, with the sign of the nearest, each step farther away by `step`.
 fn spread(samples: &mut [f32], nodes: UVec3, step: f32) {
-    let [nx, ny, nz] = nodes.to_array().map(|n| n as i32);
-    let known: Vec<bool> = samples.iter().map(|d| !d.is_nan()).collect();
-    if !known.contains(&true) {
+    let [nx, ny, nz] = nodes.to_array().map(|n| n as usize);
+    let unknown: Vec<bool> = samples.iter().map(|d| d.is_nan()).collect();
+    if !unknown.contains(&true) {
+        return;
+    }
+    if !unknown.contains(&false) {
         // No skin within reach.
         samples.fill(step.max(f32::MIN_POSITIVE));
         return;
     }
-    let before: Vec<[i32; 3]> = (0..13).map(|n| [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1]).collect();
     let mut goes_on = true;
     while goes_on {
         goes_on = false;
-        for way in [1, -1] {
-            let range = |n: i32| (0..n).map(move |i| if way == 1 { i } else { n - 1 - i });
-            for (k, j, i) in range(nz).flat_map(|k| range(ny).flat_map(move |j| range(nx).map(move |i| (k, j, i)))) {
-                let at = ((k * ny + j) * nx + i) as usize;
-                if known[at] {
+        for forth in [true, false] {
+            for n in 0..samples.len() {
+                let at = if forth { n } else { samples.len() - 1 - n };
+                if !unknown[at] {
                     continue;
                 }
-                for [x, y, z] in &before {
-                    let [x, y, z] = [i + way * x, j + way * y, k + way * z];
-                    if !((0..nx).contains(&x) && (0..ny).contains(&y) && (0..nz).contains(&z)) {
-                        continue;
-                    }
-                    let from = samples[((z * ny + y) * nx + x) as usize];
-                    let length = (((x - i).pow(2) + (y - j).pow(2) + (z - k).pow(2)) as f32).sqrt();
-                    let there = (from.abs() + step * length).copysign(from);
+                let place = [at % nx, at / nx % ny, at / (nx * ny)];
+                for (axis, stride) in [1, nx, nx * ny].into_iter().enumerate() {
+                    let beside = match forth {
+                        true if place[axis] > 0 => at - stride,
+                        false if place[axis] + 1 < [nx, ny, nz][axis] => at + stride,
+                        _ => continue,
+                    };
+                    let from = samples[beside];
+                    let there = (from.abs() + step).copysign(from);
                     if !from.is_nan() && (samples[at].is_nan() || there.abs() < samples[at].abs()) {
                         (samples[at], goes_on) = (there, true);
                     }
