@@ -202,7 +202,8 @@ impl Dynamics {
     /// many frames; and cohesion per cm per frame becomes R times as strong. Motions of bodies and skin
     /// are interpolated.
     /// Forces, stiffness, hold, gravity, pressure, drag and contact stay the same. Settings of fields that count frames
-    /// are not changed here: build those fields for the new rate. The random turns of disturbances differ.
+    /// are not changed here: build those fields, and a
+    /// [`BendingSkin`](crate::distance::BendingSkin), for the new rate. The random turns of disturbances differ.
     ///
     /// A lower rate may be unstable for the forces. The stepper then refuses them.
     ///
@@ -281,8 +282,8 @@ pub struct FrameInput<'a> {
     /// [`BodyWay`]: crate::body::BodyWay
     pub bodies: &'a [Option<[Pose; 2]>],
     /// The skin in that frame, in the frame before and in the one before that, from [`Skin::frame`] of
-    /// [`Dynamics::skin`]; ignored without such a skin. `None` means that it follows [`Skin::frames`]. If it jumps, pass
-    /// the new shape three times.
+    /// [`Dynamics::skin`]; ignored without such a skin. `None` means that it follows [`Skin::frames`]. If it jumps, pass the
+    /// new shape three times, and call [`Simulation::jumped`].
     pub skin: Option<[&'a SkinFrame; 3]>,
 }
 

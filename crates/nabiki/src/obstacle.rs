@@ -23,6 +23,11 @@ pub trait Obstacle: Debug + Send + Sync {
     /// there. A distance may be too small anywhere, and up to 5 % too large above 4 cm.
     fn read(&self, p: Vec3, frame: u32) -> Option<Reading>;
 
+    /// The distance up to which readings are not too small. Contact asks at least as often as hair may come this near.
+    fn exact_within(&self) -> f32 {
+        f32::INFINITY
+    }
+
     /// The same when only a part of the frame is over, 0..1: for shapes that bend, if a frame has several steps.
     #[inline]
     fn read_during(&self, p: Vec3, frame: u32, _part: f32) -> Option<Reading> {

@@ -11,7 +11,7 @@ use glam::{DMat3, DQuat, DVec3, Vec3};
 use crate::distance::Nearest;
 use crate::error::SettingError;
 use crate::mesh::{Mesh, vertex_normals};
-use crate::strands::Strands;
+use crate::strands::{Strands, bounds};
 
 /// A mesh at rest that carries roots, and its shape in every frame, if known beforehand.
 #[derive(Clone, Debug)]
@@ -182,6 +182,13 @@ impl Skin {
         self.triangles.len()
     }
 
+    /// The box around all that carries hair, in all frames; `None` for a skin that stays at rest.
+    #[must_use]
+    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+        let boxes = self.frames.iter().map(|frame| bounds(&frame.points));
+        boxes.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)])
+    }
+
     /// Its frames; none for a skin that stays at rest.
     #[must_use]
     pub fn frames(&self) -> &[SkinFrame] {
@@ -261,7 +268,8 @@ pub(crate) struct SkinPlace {
     weights: DVec3,
     /// Where it is at rest.
     rest: DVec3,
-    axes: DMat3,
+    /// None where the triangle has no area, so that it never turns.
+    axes: Option<DMat3>,
     root: DVec3,
 }
 
@@ -269,9 +277,9 @@ impl SkinPlace {
     fn new(skin: &Skin, root: Vec3, triangle: usize) -> Self {
         let (corners, root) = (skin.triangles[triangle], root.as_dvec3());
         let weights = weights(root, corners.map(|v| skin.rest.points[v as usize].as_dvec3()));
-        let mut place = Self { corners, weights, rest: DVec3::ZERO, axes: DMat3::IDENTITY, root };
+        let mut place = Self { corners, weights, rest: DVec3::ZERO, axes: None, root };
         place.rest = place.at(&skin.rest);
-        place.axes = place.axes_in(&skin.rest).unwrap_or_default();
+        place.axes = place.axes_in(&skin.rest);
         place
     }
 
@@ -286,8 +294,8 @@ impl SkinPlace {
 
     /// The turn of the skin from rest, exactly none where it has not moved. Where the triangle has no area, none.
     pub fn turn(&self, frame: &SkinFrame) -> DQuat {
-        match self.axes_in(frame) {
-            Some(axes) if axes != self.axes => DQuat::from_mat3(&(axes * self.axes.transpose())).normalize(),
+        match self.axes.zip(self.axes_in(frame)) {
+            Some((rest, axes)) if axes != rest => DQuat::from_mat3(&(axes * rest.transpose())).normalize(),
             _ => DQuat::IDENTITY,
         }
     }

@@ -436,7 +436,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
     }
 
     fn bent_meshes(&mut self, wanted: &dyn Fn(&str) -> bool, time: f64) -> Result<Vec<Vec3>, Problem> {
-        self.tree.budget().next_moment()?;
+        self.tree.budget().next_question();
         self.vertices_at(wanted, time)
     }
 }

@@ -7,7 +7,7 @@ use crate::Problem;
 use crate::control::Course;
 use crate::in_place::InPlace;
 
-/// The message about a mesh whose points move: heads and bodies are rigid.
+/// The message about a mesh whose points move, where only one shape is read.
 pub const FIRST_SHAPE: &str = "it keeps the shape of the first frame";
 
 /// The same where it is read as it was bound to its joints.

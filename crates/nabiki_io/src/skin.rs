@@ -1,5 +1,6 @@
 //! Skin that bends: the vertices of a head's mesh in every frame, from the file that holds both mesh and motion.
 
+use std::io::Read;
 use std::path::Path;
 
 use glam::{Affine3A, Vec3, Vec3A};
@@ -80,4 +81,19 @@ pub fn each_frame(
 #[must_use]
 pub fn says_rigid(unread: &str) -> bool {
     [FIRST_SHAPE, BOUND_SHAPE, STILL_SHAPE].iter().any(|shape| unread.ends_with(shape))
+}
+
+/// Hands on the bytes of a file, part by part: what identifies a skin that is read from it.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn each_part(path: &Path, take: &mut dyn FnMut(&[u8])) -> Result<()> {
+    let mut file = input::open(path)?;
+    let mut part = vec![0; 1 << 20];
+    loop {
+        match file.read(&mut part).map_err(|e| Error::from(e).in_file(path))? {
+            0 => return Ok(()),
+            length => take(&part[..length]),
+        }
+    }
 }

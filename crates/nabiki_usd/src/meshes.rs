@@ -49,15 +49,25 @@ fn bent(layer: &mut Layer, prim: usize, stance: Stance) -> Result<Vec<String>, P
     if layer.prims[prim].attributes.get("points").is_some_and(|points| points.samples.len() > 1) {
         return Ok(vec![format!("the motion of the points of {path}: {FIRST_SHAPE}")]);
     }
+    let shapes = BlendShapes::of(layer, prim)?.map(|_| format!("the blend shapes of {path}: {FIRST_SHAPE}"));
     let Some(skin) = Skin::of(layer, prim)? else {
+        if shapes.is_some() {
+            return Ok(shapes.into_iter().collect());
+        }
         let bound = layer.prims[prim].related().find(|name| name.starts_with("skel:"));
         let line = |name| format!("{name} of {path}: it keeps the shape of its own points");
         return Ok(bound.map(line).into_iter().collect());
     };
-    let unblended = skin.unblended(&path).filter(|_| stance == Stance::First);
+    let unblended = skin.unblended(&path);
     let kept = match stance {
         Stance::First => FIRST_SHAPE,
         Stance::Bound => BOUND_SHAPE,
     };
-    Ok(skin.bends().then(|| format!("how joints bend {path}: {kept}")).into_iter().chain(unblended).collect())
+    Ok(skin
+        .bends()
+        .then(|| format!("how joints bend {path}: {kept}"))
+        .into_iter()
+        .chain(unblended)
+        .chain(shapes)
+        .collect())
 }

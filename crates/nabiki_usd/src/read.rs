@@ -507,7 +507,7 @@ impl GroomReader for StageReader {
     }
 
     fn bent_meshes(&mut self, wanted: &dyn Fn(&str) -> bool, time: f64) -> Result<Vec<Vec3>, Problem> {
-        self.layer.budget.next_moment()?;
+        self.layer.budget.next_question();
         let code = time * self.codes_a_second()?;
         // Times are quotients of codes: a sample at this one is meant.
         let whole = code.round();

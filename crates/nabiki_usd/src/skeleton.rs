@@ -149,7 +149,7 @@ impl Rig {
     pub fn times(&self, layer: &Layer) -> Vec<f64> {
         let mut times = transform::times(layer, self.skeleton);
         let attributes = self.animation.as_ref().map(|animation| &layer.prims[animation.prim].attributes);
-        for name in ["translations", "rotations", "scales"] {
+        for name in ["translations", "rotations", "scales", "blendShapeWeights"] {
             let samples = attributes.and_then(|a| a.get(name)).map(|a| &a.samples[..]).unwrap_or_default();
             times.extend(samples.iter().map(|&(t, _)| t));
         }

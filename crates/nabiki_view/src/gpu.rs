@@ -97,7 +97,7 @@ struct Bodies {
     of_others: Vec<(usize, [f32; 3])>,
     at: Vec<Affine3A>,
     /// Where the vertices of head and bodies were read, of those that bend.
-    bent: Vec<Option<usize>>,
+    bent: Vec<Option<(usize, Vec3)>>,
     surface: SurfaceOnCard,
 }
 
@@ -285,7 +285,8 @@ impl Gpu {
         };
         let before = self.bodies.take().filter(same);
         let skins = std::iter::once(drawing.skin).chain(bodies.iter().map(|body| body.skin));
-        let bent: Vec<_> = skins.map(|skin| skin.map(|skin| skin.as_ptr() as usize)).collect();
+        // Another frame may be at the place of one that is gone.
+        let bent: Vec<_> = skins.map(|skin| skin.map(|skin| (skin.as_ptr() as usize, skin.iter().sum()))).collect();
         if before.as_ref().is_some_and(|on_card| on_card.at == at && on_card.bent == bent) {
             self.bodies = before;
             return;

@@ -29,6 +29,8 @@ pub struct BendingSkin {
     rest: Arc<SkinDistance>,
     frames: Vec<Frame>,
     identity: [f32; 2],
+    /// Within this distance of the skin, distances are not too small.
+    band: f32,
 }
 
 #[derive(Debug)]
@@ -55,15 +57,20 @@ impl BendingSkin {
     ) -> Self {
         let spacing = rest.spacing();
         let cell = spacing * FINE as f32;
-        let cells = ((high - low) / cell).floor().as_uvec3().max(UVec3::ONE);
-        let sampler = Sampler { topology: &Topology::new(mesh), low, spacing, cells, band: clearance + BAND * spacing };
+        let cells = ((high - low) / cell).ceil().as_uvec3().max(UVec3::ONE);
+        // Signs are those of the faces.
+        let mut mesh = mesh.clone();
+        mesh.turn_outward();
+        let sampler =
+            Sampler { topology: &Topology::new(&mesh), low, spacing, cells, band: clearance + BAND * spacing };
         let frame = |n: usize| sampler.frame(&frames[n], &frames[n.saturating_sub(1)]);
         let identity = frames
             .iter()
             .flatten()
             .fold(0, |hash, p| p.to_array().into_iter().fold(hash, |hash, x| mix(hash ^ u64::from(x.to_bits()))));
         let identity = [identity as u32, (identity >> 32) as u32].map(f32::from_bits);
-        Self { rest, frames: (0..frames.len()).into_par_iter().map(frame).collect(), identity }
+        let band = sampler.band;
+        Self { rest, frames: (0..frames.len()).into_par_iter().map(frame).collect(), identity, band }
     }
 
     /// Its memory (bytes).
@@ -104,6 +111,10 @@ impl Obstacle for BendingSkin {
             gradient: before.gradient.lerp(now.gradient, part),
             hessian: before.hessian + part * (now.hessian - before.hessian),
         })
+    }
+
+    fn exact_within(&self) -> f32 {
+        self.band
     }
 
     fn read_at_rest(&self, p: Vec3) -> Option<Reading> {
@@ -304,14 +315,24 @@ impl Sampler<'_> {
             fine.push(block);
             moved.push(corners);
         }
-        spread(&mut coarse, nodes, SURE * cell);
-        let high = low + cell * self.cells.as_vec3();
-        let within = |p: &Vec3| p.cmpge(low).all() && p.cmple(high).all();
-        let motions =
-            positions.iter().zip(before).filter(|(now, _)| within(now)).map(|(now, before)| now.distance(*before));
-        let farthest = motions.fold(0.0, f32::max);
+        spread(&mut coarse, nodes, SURE * cell, self.band);
         let samples = Samples { low, cell, nodes, mirrored: false, coarse, block_of, fine };
-        Frame { skin: SkinDistance { tree: OnceLock::new(), mesh: Mesh::default(), samples }, moved, farthest }
+        Frame {
+            skin: SkinDistance { tree: OnceLock::new(), mesh: Mesh::default(), samples },
+            moved,
+            farthest: self.farthest(&shape),
+        }
+    }
+
+    /// The largest motion of a corner of the triangles within the band of any cell, now or before (cm).
+    fn farthest(&self, shape: &Shape) -> f32 {
+        let motion = |triangle: &[u32; 3]| {
+            let [now, before] = [&shape.vertices, &shape.before].map(|all| triangle.map(|v| all[v as usize]));
+            let near = self.cells_about(now).is_some() || self.cells_about(before).is_some();
+            let motions = now.into_iter().zip(before).map(|(now, before)| now.distance(before));
+            if near { motions.fold(0.0, f32::max) } else { 0.0 }
+        };
+        shape.topology.triangles.iter().map(motion).fold(0.0, f32::max)
     }
 
     /// The triangles within the band of each cell: where those of a cell begin, one after another, and all of them.
@@ -406,7 +427,7 @@ impl Sampler<'_> {
             }
         }
         // Farther away than the band, on the side of their neighbours.
-        spread(&mut block, UVec3::splat(EDGE as u32), 0.0);
+        spread(&mut block, UVec3::splat(EDGE as u32), 0.0, self.band);
         block.iter_mut().zip(nearest).filter(|(_, t)| *t == u32::MAX).for_each(|(d, _)| *d = self.band.copysign(*d));
         let motion = |at: usize| match nearest[at] {
             // As that of any triangle near by.
@@ -424,8 +445,9 @@ fn corner_nodes() -> impl Iterator<Item = usize> {
     (0..8).map(|k| ((k >> 2) * EDGE + (k >> 1 & 1)) * EDGE * FINE + (k & 1) * FINE)
 }
 
-/// Fills samples that are not numbers from their neighbours along the axes, with the sign of the nearest, each step farther away by `step`.
-fn spread(samples: &mut [f32], nodes: UVec3, step: f32) {
+/// Fills samples that are not numbers from their neighbours along the axes, with the sign of the nearest, each step farther away by `step`;
+/// with `alone` if none is a number.
+fn spread(samples: &mut [f32], nodes: UVec3, step: f32, alone: f32) {
     let [nx, ny, nz] = nodes.to_array().map(|n| n as usize);
     let unknown: Vec<bool> = samples.iter().map(|d| d.is_nan()).collect();
     if !unknown.contains(&true) {
@@ -433,7 +455,7 @@ fn spread(samples: &mut [f32], nodes: UVec3, step: f32) {
     }
     if !unknown.contains(&false) {
         // No skin within reach.
-        samples.fill(step.max(f32::MIN_POSITIVE));
+        samples.fill(alone);
         return;
     }
     let mut goes_on = true;

@@ -133,7 +133,7 @@ pub(crate) fn each_bent(
     let buffers = Buffers::new(&document, bytes, blob, folder)?;
     let clip = Clip::read(&document, &buffers, clip, &|_| true)?;
     for (n, &time) in times.iter().enumerate() {
-        buffers.budget.next_moment()?;
+        buffers.budget.next_question();
         let mut all = Vec::new();
         each_part(&document, &buffers, groups, Some(Playing { clip: &clip, time }), &mut |part| {
             all.extend(&part.positions);
@@ -148,17 +148,17 @@ pub(crate) fn each_bent(
 pub(crate) fn bends(bytes: &[u8], folder: Option<&Path>, groups: &[String], clip: &str) -> Result<bool> {
     let (document, blob) = open(bytes)?;
     let buffers = Buffers::new(&document, bytes, blob, folder)?;
-    let clip = Clip::read(&document, &buffers, clip, &|_| true)?;
-    let mut bends = false;
+    let (mut nodes, mut joints) = (Vec::new(), Vec::new());
     each_part(&document, &buffers, groups, None, &mut |part| {
-        let carriers = part.carriers.as_deref().unwrap_or_default();
-        let several = carriers.windows(2).any(|pair| pair[0] != pair[1]);
-        let joints =
-            part.node.skin().into_iter().flat_map(|skin| skin.joints().map(|joint| joint.index()).collect::<Vec<_>>());
-        bends |= clip.morphs(part.node.index()) || several && clip.moves(joints);
+        nodes.push(part.node.index());
+        let skin = part.node.skin().filter(|_| part.carriers.is_some());
+        let of_skin: Vec<usize> = skin.iter().flat_map(|skin| skin.joints().map(|joint| joint.index())).collect();
+        // One joint carries a mesh as a whole.
+        joints.extend(of_skin.iter().filter(|_| of_skin.len() > 1));
         Ok(())
     })?;
-    Ok(bends)
+    let clip = Clip::read(&document, &buffers, clip, &|node| nodes.contains(&node) || joints.contains(&node))?;
+    Ok(nodes.iter().any(|&node| clip.morphs(node)) || clip.moves(joints))
 }
 
 /// Goes through what the default scene shows, or of it what `groups` name: in the still pose, or as an animation has it.

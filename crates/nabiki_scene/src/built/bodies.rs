@@ -1,12 +1,13 @@
 //! The bodies of a scene besides the head: those that hair collides with, and those that are only drawn.
 
 use std::path::PathBuf;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use glam::Vec3;
 use nabiki::body::{Body, BodyWay, Shape, skin_of};
+use nabiki::distance::{BendingSkin, SkinDistance};
 use nabiki::strands::bounds;
-use nabiki::{Mesh, Pose, Strands};
+use nabiki::{Mesh, Pose, Skin, Strands};
 use nabiki_io::skin::says_rigid;
 use nabiki_io::{Placement, declared_space, mesh};
 
@@ -27,16 +28,20 @@ pub(crate) struct BuiltBody {
     /// Phrases about unused data of the meshes in its file.
     pub unread: Vec<String>,
     pub way: BodyWay,
+    /// Its file; none for a capsule.
+    pub file: Option<PathBuf>,
     /// Its vertices in each frame, from frame 0 on; none for a body that does not bend.
     pub frames: Vec<Vec<Vec3>>,
     /// How its file lies in that space.
     pub placement: Placement,
     /// Its shape: a capsule, or the skin of the mesh once that is needed for contact.
     shape: OnceLock<Shape>,
+    /// The same of what bends, with the box and the margin that it was sampled for.
+    bending: Mutex<Option<([Vec3; 2], f32, Arc<BendingSkin>)>>,
 }
 
 /// The inputs of a body.
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 pub(super) struct BodyInputs {
     /// The scene file, to whose folder paths are relative.
     file: PathBuf,
@@ -69,7 +74,10 @@ impl Stage for BuiltBody {
     type Inputs = BodyInputs;
 
     fn is_of(&self, inputs: &BodyInputs) -> bool {
-        self.inputs == *inputs
+        let BodyInputs { file, number, settings, frame_rate, last } = &self.inputs;
+        // The number of frames matters only to what bends.
+        (file, number, settings, frame_rate) == (&inputs.file, &inputs.number, &inputs.settings, &inputs.frame_rate)
+            && (self.frames.is_empty() || *last == inputs.last)
     }
 
     fn make(inputs: BodyInputs, at: At<'_>) -> Result<Self> {
@@ -96,7 +104,7 @@ impl Stage for BuiltBody {
             None => BodyWay::InWorld(Arc::new([Pose::STILL])),
             Some(source) => {
                 let (scene, source) = (scene.clone(), source.clone());
-                let motion = WayInputs { file: scene, source, mesh: file, placement, frame_rate: *frame_rate };
+                let motion = WayInputs { file: scene, source, mesh: file.clone(), placement, frame_rate: *frame_rate };
                 let read = motion.read(&format!("{name}.motion"), at)?;
                 if let Some(file) = motion.of_mesh() {
                     let (which, clip) = (&settings.groups, motion.source.clip.as_str());
@@ -108,7 +116,7 @@ impl Stage for BuiltBody {
         };
         let mut unread: Vec<String> = unread;
         unread.retain(|line| frames.is_empty() || !says_rigid(line));
-        Ok(Self { inputs, mesh, unread, way, frames, placement, shape })
+        Ok(Self { inputs, mesh, file, unread, way, frames, placement, shape, bending: Mutex::default() })
     }
 }
 
@@ -132,18 +140,29 @@ impl BuiltBody {
         if !settings.solid {
             return Ok(None);
         }
+        let skin = || -> Result<Arc<SkinDistance>> {
+            let skin = skin_of(self.mesh.clone(), &format!("{name}.mesh"));
+            Ok(Arc::new(skin.map_err(|refused| at.refusal(refused))?))
+        };
         let shape = match self.shape.get() {
             Some(shape) => shape.clone(),
-            None => {
-                let skin = skin_of(self.mesh.clone(), &format!("{name}.mesh"));
-                let skin = Arc::new(skin.map_err(|refused| at.refusal(refused))?);
-                if !self.frames.is_empty() {
-                    // Made anew with each groom, whose reach it is sampled within.
-                    let within = reach.in_space_of(&self.way);
-                    let skin = bending(&skin, &self.mesh, &self.frames, within, settings.margin)?;
-                    return Ok(Some(Body::new(name, Shape::Other(skin), self.way.clone(), settings.contact())));
-                }
+            None if self.frames.is_empty() => {
+                let skin = skin()?;
                 self.shape.get_or_init(|| skin.into()).clone()
+            }
+            None => {
+                let (within, margin) = (reach.in_space_of(&self.way), settings.margin);
+                let mut known = self.bending.lock().unwrap_or_else(PoisonError::into_inner);
+                match &*known {
+                    Some((of, for_margin, skin)) if (*of, *for_margin) == (within, margin) => {
+                        Shape::Other(skin.clone())
+                    }
+                    _ => {
+                        let skin = bending(&skin()?, &self.mesh, &self.frames, within, margin)?;
+                        *known = Some((within, margin, skin.clone()));
+                        Shape::Other(skin)
+                    }
+                }
             }
         };
         Ok(Some(Body::new(name, shape, self.way.clone(), settings.contact())))
@@ -155,22 +174,23 @@ pub(super) struct Reach<'a> {
     center: Vec3,
     radius: f32,
     poses: &'a [Pose],
+    last: u32,
 }
 
 impl<'a> Reach<'a> {
-    pub fn of(groom: &Groom, poses: &'a [Pose]) -> Self {
+    pub fn of(groom: &Groom, skin: Option<&Skin>, poses: &'a [Pose], last: u32) -> Self {
         let roots = |strands: &Strands| strands.iter().map(|strand| strand[0]).collect::<Vec<_>>();
         let all = [&groom.hair.strands, &groom.first];
-        let [low, high] = bounds(&all.map(roots).concat());
+        let moved = skin.and_then(Skin::bounds).into_iter().flatten();
+        let [low, high] = bounds(&all.map(roots).concat().into_iter().chain(moved).collect::<Vec<_>>());
         let longest = all.into_iter().flat_map(Strands::lengths).fold(0.0, f32::max);
-        Self { center: 0.5 * (low + high), radius: 0.5 * low.distance(high) + longest, poses }
+        Self { center: 0.5 * (low + high), radius: 0.5 * low.distance(high) + longest, poses, last }
     }
 
     /// The box about it in the space of a body, for all frames.
     fn in_space_of(&self, way: &BodyWay) -> [Vec3; 2] {
-        let frames = 0..self.poses.len().max(1) as u32;
-        let centers = frames.map(|n| {
-            let head = self.poses.get(n as usize).copied().unwrap_or_default();
+        let centers = (0..=self.last).map(|n| {
+            let head = self.poses.get(n as usize).or(self.poses.last()).copied().unwrap_or_default();
             let body_from_head = way.pose(n, &head).world_from_head().inverse() * head.world_from_head();
             body_from_head.transform_point3(self.center)
         });

@@ -71,7 +71,7 @@ pub(super) fn set_free<'a>(
     at: At<'_>,
 ) -> Result<Vec<Arc<BuiltBody>>> {
     let head = bent.body(scene.contact)?.unwrap_or_else(|| model.body(scene.contact));
-    let reach = Reach::of(groom, &way.poses);
+    let reach = Reach::of(groom, dynamics.skin.as_deref(), &way.poses, scene.motion.frames);
     let (mut felt, mut bodies) = (vec![head], Vec::new());
     for (i, settings) in scene.bodies.iter().enumerate() {
         // All hair is grown at this point.

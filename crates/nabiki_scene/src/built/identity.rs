@@ -1,5 +1,8 @@
 //! The identity of a scene, for motion caches.
 
+use std::path::Path;
+
+use glam::Vec3;
 use nabiki::Pose;
 use nabiki::body::BodyWay;
 use nabiki::dynamics::{Form, Motion};
@@ -7,6 +10,7 @@ use nabiki::free_form::FreeMotion;
 use nabiki::pseudo_force::PseudoForce;
 use nabiki_io::cache::Piece;
 use nabiki_io::identity::{Digest, SceneId, StrandSum};
+use nabiki_io::skin;
 
 use super::{BuiltScene, ShardOf};
 use crate::error::{Error, Result};
@@ -86,8 +90,8 @@ impl BuiltScene {
         for frame in 0..self.way.poses.len() {
             add_pose(&mut digest, &self.way.poses[frame]);
         }
-        for frame in self.dynamics.skin.iter().flat_map(|skin| skin.frames()) {
-            frame.numbers(&mut |numbers| add_numbers(&mut digest, "skin", numbers));
+        if let Some(file) = self.bent_head.file() {
+            add_skin(&mut digest, file, &self.bent_head.frames)?;
         }
         Ok(digest.finish())
     }
@@ -107,9 +111,17 @@ impl BuiltScene {
         }
         // Accelerations are per second.
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
-        for body in &free.bodies {
+        let mut solid = self.bodies.iter().zip(&self.scene.bodies).filter(|(_, settings)| settings.solid);
+        for (i, body) in free.bodies.iter().enumerate() {
             digest.settings("contact", &body.contact)?;
-            body.shape.obstacle().identify(&mut |numbers| add_numbers(digest, "distance", numbers));
+            let built = if i > 0 { solid.next().map(|(built, _)| built) } else { None };
+            match built.and_then(|built| Some((built.file.as_deref()?, &built.frames))).filter(|(_, of)| !of.is_empty())
+            {
+                Some((file, frames)) => add_skin(digest, file, frames)?,
+                // The head's skin is added above.
+                None if i == 0 && self.bent_head.file().is_some() => {}
+                None => body.shape.obstacle().identify(&mut |numbers| add_numbers(digest, "distance", numbers)),
+            }
             if let BodyWay::InWorld(poses) = &body.way {
                 poses.iter().for_each(|pose| add_pose(digest, pose));
             }
@@ -125,6 +137,15 @@ impl BuiltScene {
 fn add_pose(digest: &mut Digest, pose: &Pose) {
     let numbers = [pose.position_cm.to_array().as_slice(), pose.rotation.to_array().as_slice()].concat();
     add_numbers(digest, "pose", &numbers);
+}
+
+/// What bends, however many of its frames are wanted: its file, and the first of them, which depend on how it is read.
+fn add_skin(digest: &mut Digest, file: &Path, frames: &[Vec<Vec3>]) -> Result<()> {
+    skin::each_part(file, &mut |bytes| digest.bytes("skin", bytes))?;
+    for frame in frames.iter().take(2) {
+        add_numbers(digest, "skin", bytemuck::cast_slice(frame));
+    }
+    Ok(())
 }
 
 fn add_numbers(digest: &mut Digest, name: &str, numbers: &[f32]) {

@@ -7,6 +7,7 @@ use glam::Vec3;
 use nabiki::body::{Body, BodyWay, Contact, Shape};
 use nabiki::distance::{BendingSkin, SkinDistance};
 use nabiki::skin::SkinFrame;
+use nabiki::strands::bounds;
 use nabiki::{Mesh, Pose, Skin};
 use nabiki_io::{Placement, skin};
 
@@ -101,6 +102,11 @@ pub(super) fn frames_of(
 }
 
 impl Bent {
+    /// The file that it is read from; none for a head that does not bend.
+    pub fn file(&self) -> Option<&Path> {
+        self.inputs.way.of_mesh().map(|(file, ..)| file).filter(|_| !self.frames.is_empty())
+    }
+
     /// The head as a body that bends; `None` for one that does not.
     pub(super) fn body(&self, contact: Contact) -> Result<Option<Body>> {
         if self.frames.is_empty() {
@@ -109,9 +115,11 @@ impl Bent {
         let head = &self.inputs.model.head;
         let mut known = self.body.lock().unwrap_or_else(PoisonError::into_inner);
         let skin = match &*known {
-            Some((clearance, skin)) if *clearance >= contact.margin => skin.clone(),
+            Some((clearance, skin)) if *clearance == contact.margin => skin.clone(),
             _ => {
-                let within = head.skin().sampled_box();
+                // As far around as a rigid head is sampled.
+                let (center, half) = (head.ellipsoid.center, head.ellipsoid.half_axes.max_element());
+                let within = [center - 4.0 * half, center + 4.0 * half];
                 let skin = bending(head.skin(), &head.mesh, &self.frames, within, contact.margin)?;
                 known.insert((contact.margin, skin)).1.clone()
             }
@@ -128,9 +136,16 @@ pub(super) fn bending(
     within: [Vec3; 2],
     clearance: f32,
 ) -> Result<Arc<BendingSkin>> {
-    let of = |frames| BendingSkin::new(rest.clone(), mesh, frames, within, clearance);
-    let bytes = of(&frames[..1]).bytes() * frames.len() as u64;
-    match memory::short_of(bytes) {
+    // Where the skin is at any time, with what hair may be kept off it.
+    let about = clearance + AROUND_CM;
+    let [low, high] = frames.iter().map(|frame| bounds(frame)).reduce(around).unwrap_or(within);
+    let low = within[0].max(low - about).min(within[1]);
+    let high = within[1].min(high + about).max(low + rest.spacing());
+    let cells = ((high - low) / (4.0 * rest.spacing())).as_dvec3().ceil().element_product();
+    let of = |frames| BendingSkin::new(rest.clone(), mesh, frames, [low, high], clearance);
+    let short = memory::short_of((8.0 * cells) as u64 * frames.len() as u64);
+    let short = short.or_else(|| memory::short_of(of(&frames[..1]).bytes() * frames.len() as u64));
+    match short {
         None => Ok(Arc::new(of(frames))),
         Some(short) => {
             let (vertices, frames) = (mesh.positions.len(), frames.len());
@@ -138,6 +153,13 @@ pub(super) fn bending(
             Err(Error::refused(format!("{line}: lower motion.frames, or use only the parts near the hair")))
         }
     }
+}
+
+/// Around a skin that is sampled (cm).
+const AROUND_CM: f32 = 6.0;
+
+fn around([low, high]: [Vec3; 2], [from, to]: [Vec3; 2]) -> [Vec3; 2] {
+    [low.min(from), high.max(to)]
 }
 
 /// The skin under the hair.
@@ -178,9 +200,8 @@ impl Stage for Scalp {
         let mut report =
             format!("its skin bends, and carries {} roots on {} triangles", groom.hair.strands.len(), skin.len());
         if let Some((frame, roots)) = skin.folded(&groom.hair.strands).first() {
-            report += &format!(
-                "; from frame {frame} on, it folds flat under {roots} of them, which then do not turn with it"
-            );
+            report +=
+                &format!("; in frame {frame}, it folds flat under {roots} of them, which then do not turn with it");
         }
         Ok(Self { inputs, skin: Some(Arc::new(skin)), report: Some(report) })
     }

@@ -123,9 +123,7 @@ pub(crate) fn parse(
         {
             message = format!("duplicate key {key}: already given above; give it once");
         }
-        let written = e
-            .span()
-            .and_then(|span| text[..span.start.min(text.len())].rsplit('\n').next().zip(text.get(span.start..)));
+        let written = e.span().and_then(|span| text.get(..span.start)?.rsplit('\n').next().zip(text.get(span.start..)));
         let written = written.map(|(before, after)| format!("{before}{}", after.lines().next().unwrap_or_default()));
         if written.is_some_and(|line| line.contains('\\') && line.contains('"')) {
             message += &format!("; {BACKSLASHES}");

@@ -156,7 +156,7 @@ impl PlacedBody {
             moves: now != before,
             bends: body.shape.obstacle().farthest_moved(input.frame) * part,
             part,
-            until: step as f32 * part,
+            until: step as f32 / steps as f32,
             closer: 0.0,
         };
         placed.closer = placed.farthest_moved(center, radius);
@@ -278,7 +278,7 @@ impl PlacedBody {
 
     fn gap_to(&self, skin: &(impl Obstacle + ?Sized), end: Vec3, clearance: f32) -> f32 {
         match self.read(skin, end) {
-            Some(reading) => gap(reading.distance, clearance),
+            Some(reading) => gap(reading.distance, clearance).min((skin.exact_within() - clearance).max(0.0)),
             None => beyond(skin.reach(), self.in_body(end)) - self.margin,
         }
     }

@@ -80,7 +80,10 @@ impl Packed {
         known: Option<&Self>,
     ) -> Result<Self, SettingError> {
         let stability = Stability::of(strands, dynamics)?;
-        let [low, high] = bounds(strands.points());
+        let [mut low, mut high] = bounds(strands.points());
+        if let Some([from, to]) = dynamics.skin.as_ref().and_then(|skin| skin.bounds()) {
+            (low, high) = (low.min(from), high.max(to));
+        }
         let longest = strands.lengths().fold(0.0, f32::max);
         let weakens =
             dynamics.weakening().is_some_and(|weakening| weakening.coefficients.iter().any(|&eps| eps != 1.0));

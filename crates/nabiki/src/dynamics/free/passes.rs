@@ -254,6 +254,7 @@ impl<'a, 's> Stepped<'a, 's> {
         }
         if let [body] = self.bodies
             && body.rests()
+            && self.of.ride.is_none()
         {
             // The contact returns the distance, too.
             while near != 0 {
@@ -316,7 +317,7 @@ impl<'a, 's> Stepped<'a, 's> {
                 if b == nearest.0 {
                     (state.pressed.0[lane], work.clear.0[lane]) = (push.outward, push.clear);
                 }
-                if placed.rests() && self.bodies.len() == 1 {
+                if placed.rests() && self.bodies.len() == 1 && self.of.ride.is_none() {
                     state.gap.0[lane] = push.gap;
                 }
             }

@@ -235,6 +235,11 @@ impl<S: Scalar> Strand<S> {
         self.ride = ride;
         for (n, bodies) in (1..).zip(&common.bodies) {
             self.is_shifted = ride.is_some() || turn.is_some();
+            if let Some(ride) = ride.as_ref().filter(|_| n == 1) {
+                // Where the skin was, which may have jumped.
+                self.positions[0] = ride.at(0, steps).0.into();
+                self.place();
+            }
             if self.is_shifted {
                 self.shifted.copy_from_slice(&self.positions);
             }
