@@ -36,8 +36,16 @@ pub(crate) struct BuiltBody {
     pub placement: Placement,
     /// Its shape: a capsule, or the skin of the mesh once that is needed for contact.
     shape: OnceLock<Shape>,
-    /// The same of what bends, with the box and the margin that it was sampled for.
-    bending: Mutex<Option<([Vec3; 2], f32, Arc<BendingSkin>)>>,
+    /// The same of what bends.
+    bending: Mutex<Option<Sampled>>,
+}
+
+/// A skin that bends, with the box and the margin that it was sampled for.
+#[derive(Debug)]
+struct Sampled {
+    within: [Vec3; 2],
+    margin: f32,
+    skin: Arc<BendingSkin>,
 }
 
 /// The inputs of a body.
@@ -154,12 +162,10 @@ impl BuiltBody {
                 let (within, margin) = (reach.in_space_of(&self.way), settings.margin);
                 let mut known = self.bending.lock().unwrap_or_else(PoisonError::into_inner);
                 match &*known {
-                    Some((of, for_margin, skin)) if (*of, *for_margin) == (within, margin) => {
-                        Shape::Other(skin.clone())
-                    }
+                    Some(known) if (known.within, known.margin) == (within, margin) => Shape::Other(known.skin.clone()),
                     _ => {
                         let skin = bending(&skin()?, &self.mesh, &self.frames, within, margin)?;
-                        *known = Some((within, margin, skin.clone()));
+                        *known = Some(Sampled { within, margin, skin: skin.clone() });
                         Shape::Other(skin)
                     }
                 }

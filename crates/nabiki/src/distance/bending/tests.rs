@@ -94,3 +94,28 @@ fn part_of_a_frame_is_between_two() {
         assert!((found - (before + part * (now - before))).abs() < 1e-6, "{part}: {found} of {before} and {now}");
     }
 }
+
+/// Faces that look inward are turned, as those of rigid meshes are.
+#[test]
+fn a_mesh_inside_out_is_the_same_body() {
+    let (bending, frames, mut mesh) = breathing();
+    mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    let rest = bending.rest.clone();
+    let turned = BendingSkin::new(rest.clone(), &mesh, &frames, rest.sampled_box(), 0.5);
+    for p in [Vec3::new(0.0, 7.0, 0.0), Vec3::new(0.0, 9.0, 0.0), Vec3::new(5.0, 5.5, 1.0), Vec3::ZERO] {
+        let [one, other] = [&bending, &turned].map(|skin| skin.read(p, 3).unwrap().distance);
+        assert!(one * other > 0.0 && (one - other).abs() < 1e-4, "{p}: {one} and {other}");
+    }
+}
+
+/// Skin that leaves the box where hair is touches nothing there.
+#[test]
+fn a_body_that_is_away_is_away() {
+    let mesh = ball(8.0);
+    let frames = vec![mesh.positions.iter().map(|p| *p + 100.0 * Vec3::X).collect()];
+    let rest = Arc::new(SkinDistance::new(&mesh, Vec3::splat(-16.0), Vec3::splat(16.0), SPACING));
+    let clearance = 5.0;
+    let skin = BendingSkin::new(rest.clone(), &mesh, &frames, rest.sampled_box(), clearance);
+    assert!(skin.read(Vec3::new(8.0, 0.0, 0.0), 0).unwrap().distance > clearance);
+    assert_eq!(skin.farthest_moved(0), 0.0);
+}
