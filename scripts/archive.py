@@ -5,7 +5,7 @@
     python3 scripts/archive.py --check          packs a stand-in for each system, and looks into the archives
 
 The archive is PACKAGE-TARGET-vVERSION.tar.gz, or .zip for Windows, as cargo-binstall looks for it. It holds one folder of
-that name with the program, README.md, CHANGELOG.md, both licences, the scenes, and with --licences FILE that file as
+that name with the program, START.txt, README.md, CHANGELOG.md, both licences, the scenes, and with --licences FILE that file as
 THIRD-PARTY.txt. Packed twice, the same files make the same archive, byte
 for byte.
 """
@@ -32,9 +32,37 @@ DATE = (1980, 1, 1, 0, 0, 0)
 SECONDS = 315532800
 
 
+START = """Nabiki {version}
+
+Open a terminal in this folder: a double click only shows the help for an instant.
+
+    {run} preview scenes/gust.toml      a sheet of pictures and a small movie, in the folder out
+    {run} run scenes/gust.toml          the whole movie
+    {run} help                          all commands
+
+README.md says what Nabiki does. It was written for the sources, so some of its links and pictures are not here, and its
+commands begin with `cargo run --release --`: type {run} instead. Each scene says in its first lines what to look for.
+"""
+
+STUDIO = """Nabiki Studio {version}
+
+    {run} scenes/gust.toml              opens a scene in the window; a scene can also be dropped on the program
+
+README.md says what Nabiki does. It was written for the sources, so some of its links and pictures are not here.
+"""
+
+
+def start(program):
+    """START.txt: the first steps with this program, with the line ends of its system."""
+    windows = program.suffix == ".exe"
+    run = f".\\{program.stem}" if windows else f"./{program.name}"
+    text = (STUDIO if "studio" in program.stem else START).format(version=version(), run=run)
+    return text.replace("\n", "\r\n" if windows else "\n").encode()
+
+
 def contents(program, licences=None):
     """What goes into the archive: names, bytes, and whether it is a program."""
-    files = [(program.name, program.read_bytes(), True)]
+    files = [(program.name, program.read_bytes(), True), ("START.txt", start(program), False)]
     files += [(name, (ROOT / name).read_bytes(), False) for name in PAPERS]
     if licences:
         files.append(("THIRD-PARTY.txt", licences.read_bytes(), False))
@@ -113,6 +141,7 @@ def check():
             assert [path.name for path in inside.parent.iterdir()] == [name], "more than one folder"
             assert (inside / program.name).read_bytes() == b"a program"
             assert (inside / "THIRD-PARTY.txt").read_bytes() == b"licences"
+            assert b"scenes/gust.toml" in (inside / "START.txt").read_bytes()
             # Windows knows no rights.
             assert sys.platform == "win32" or (inside / program.name).stat().st_mode & 0o777 == 0o755
             for expected in [*PAPERS, "scenes/gust.toml", "scenes/paper/gust.toml", "scenes/motion/hand.obj"]:
