@@ -1,13 +1,71 @@
-//! Words of a command, quoted for a POSIX shell.
+//! Words of a command, quoted for a POSIX shell; on Windows for cmd and PowerShell.
 
 use crate::screen::is_unsafe;
 
 /// Quotes a word, unless it has only letters, digits and signs that no shell interprets.
 ///
-/// Control characters are written in octal between `$'` and `'`, which shells have supported for long and POSIX since
+/// On Windows, a word is quoted as its programs take it: in double quotes. Elsewhere, control characters are written in octal between `$'` and `'`, which shells have supported for long and POSIX since
 /// 2024. You can therefore paste a command that is displayed.
 #[must_use]
 pub fn quoted(word: &str) -> String {
+    if cfg!(windows) { for_windows(word) } else { for_posix(word) }
+}
+
+/// As Windows programs take their command line apart: a backslash counts only before a double quote.
+fn for_windows(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || r"_-./\:=+@".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    let (mut out, mut backslashes) = ('"'.to_string(), 0);
+    for c in word.chars().filter(|&c| !is_unsafe(c)) {
+        if c == '"' {
+            out.extend(std::iter::repeat_n('\\', backslashes + 1));
+        }
+        backslashes = if c == '\\' { backslashes + 1 } else { 0 };
+        out.push(c);
+    }
+    out.extend(std::iter::repeat_n('\\', backslashes));
+    out + "\""
+}
+
+/// The words of a text as [`for_windows`] writes them; nothing of which is certain in another.
+fn words_of_windows(text: &str) -> Option<Vec<String>> {
+    let (mut words, mut rest) = (Vec::new(), text);
+    loop {
+        let (word, after) = match rest.strip_prefix('"') {
+            Some(inside) => in_double_quotes(inside)?,
+            None => {
+                let (word, after) = rest.split_at(rest.find(' ').unwrap_or(rest.len()));
+                (word.to_owned(), after)
+            }
+        };
+        words.push(word);
+        if after.is_empty() {
+            return Some(words);
+        }
+        rest = after.strip_prefix(' ')?;
+    }
+}
+
+/// A word whose opening quote is behind, and what follows its closing one.
+fn in_double_quotes(text: &str) -> Option<(String, &str)> {
+    let (mut word, mut rest) = (String::new(), text);
+    loop {
+        let (before, after) = rest.split_once('"')?;
+        let plain = before.trim_end_matches('\\');
+        let backslashes = before.len() - plain.len();
+        word += plain;
+        word.extend(std::iter::repeat_n('\\', backslashes / 2));
+        rest = after;
+        if backslashes % 2 == 0 {
+            return Some((word, rest));
+        }
+        word.push('"');
+    }
+}
+
+fn for_posix(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+@%".contains(c);
     if word.contains(is_unsafe) {
         return in_octal(word);
@@ -49,7 +107,8 @@ pub fn command(words: &[String]) -> String {
 /// shell would run. In a foreign file, there may be any text instead.
 #[must_use]
 pub fn is_command(text: &str, first: &[&str]) -> bool {
-    words(text).is_some_and(|words| {
+    let words = if cfg!(windows) { words_of_windows(text) } else { words(text) };
+    words.is_some_and(|words| {
         words.iter().zip(first).all(|(word, first)| word == first)
             && words.len() >= first.len()
             && command(&words) == text
@@ -136,10 +195,30 @@ mod tests {
     #[test]
     fn a_shell_takes_quoted_words_as_they_are() {
         for (word, as_written) in WORDS {
-            assert_eq!(quoted(word), as_written);
+            assert_eq!(for_posix(word), as_written);
         }
+        #[cfg(not(windows))]
         assert_eq!(command(&["a".to_owned(), "b c".to_owned()]), "a 'b c'");
         assert_eq!([operand("-o.toml"), operand("a-b")], ["./-o.toml", "a-b"]);
+    }
+
+    #[test]
+    fn words_for_windows_are_taken_apart_again() {
+        let written = [
+            (r"scenes\gust.toml", r"scenes\gust.toml"),
+            (r"C:\my hair\new.toml", r#""C:\my hair\new.toml""#),
+            ("force.1.vector=[0,-100,0]", r#""force.1.vector=[0,-100,0]""#),
+            (r#"free.gravity="1 g""#, r#""free.gravity=\"1 g\"""#),
+            (r"o d\", r#""o d\\""#),
+            ("", r#""""#),
+            ("it's", r#""it's""#),
+        ];
+        for (word, as_written) in written {
+            assert_eq!(for_windows(word), as_written);
+        }
+        let all = written.map(|(word, _)| word.to_owned()).to_vec();
+        let text = all.iter().map(|word| for_windows(word)).collect::<Vec<_>>().join(" ");
+        assert_eq!(words_of_windows(&text), Some(all));
     }
 
     #[cfg(unix)]
@@ -153,6 +232,7 @@ mod tests {
         }
     }
 
+    #[cfg(not(windows))]
     #[test]
     fn a_command_is_known_by_being_words_alone() {
         let all: Vec<String> =

@@ -21,6 +21,7 @@
 //! Carriers are packed apart from the hair that is shown. Both read the grid of the frame before while the carriers
 //! fill the next one. Where many frames are asked for, the carriers go through all of them first.
 
+mod along;
 mod contact;
 mod frame;
 mod grid;
