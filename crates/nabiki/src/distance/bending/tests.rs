@@ -51,8 +51,9 @@ fn distances_are_those_of_the_shape_in_each_frame() {
             let (found, truth) = (bending.read(p, n as u32).unwrap().distance, exact.exact(p));
             if truth.abs() < 0.5 {
                 // Between samples a step h apart, facets that meet at an angle are off by a quarter of h times that: along both
-                // ways of a vertex, a tenth of a radian and 0.06.
-                assert!((found - truth).abs() < SPACING * 0.16 / 4.0, "frame {n}, {p}: {found} for {truth}");
+                // ways of a vertex, a tenth of a radian and 0.06; at the rim, where a fan closes the ball, a third of a radian more.
+                let angle = if p.y < -6.0 { 0.16 + 0.34 } else { 0.16 };
+                assert!((found - truth).abs() < SPACING * angle / 4.0, "frame {n}, {p}: {found} for {truth}");
                 near += 1;
             } else {
                 assert!(found * truth > 0.0, "frame {n}, {p}: {found} for {truth}");
