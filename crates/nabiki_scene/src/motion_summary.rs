@@ -135,7 +135,8 @@ impl MotionSummary {
     pub fn add(&mut self, built: &BuiltScene, frame: u32, strands: &Strands) {
         let [before, earlier] = &self.before;
         let now = FrameSummary::of(built, frame, strands, [before, earlier]);
-        self.met = if built.scene.bodies.is_empty() { "the head" } else { "the head or a body" };
+        let besides = others(built, frame).len() > usize::from(built.skin(frame).is_some());
+        self.met = if besides { "the head or a body" } else { "the head" };
         if frame == 0 {
             self.blamed = blamed(built);
         }
