@@ -506,8 +506,9 @@ fn a_path_of_windows_in_double_quotes_is_refused_with_what_helps() {
         assert!(refused.starts_with("a.toml:2: not TOML: "), "{refused}");
         assert!(refused.ends_with(r"; in a path, write / or single quotes: 'C:\hair\new.obj'"), "{refused}");
     }
+    const FORCE: &str = "[[force]]\nthrough = 100\nvector = [0, 0, 0]\n";
     // This one is TOML, with a tab and a line break.
-    let scene = Scene::parse("[head]\nmesh = \"C:\\temp\\new.obj\"\n[hair]\nstrands = 5\n", Path::new("a.toml"), &[]);
+    let scene = Scene::parse(&format!("[head]\nmesh = \"C:\\temp\\new.obj\"\n{FORCE}"), Path::new("a.toml"), &[]);
     let refused = scene.unwrap().load_head().unwrap_err().to_string();
     assert!(refused.contains("has a control character: in a path, write / or single quotes"), "{refused}");
 }

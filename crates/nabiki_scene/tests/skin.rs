@@ -96,7 +96,9 @@ fn a_new_scene_of_a_head_that_bends_moves_its_hair_with_the_skin() {
         let world = built.pose(n as u32).world_from_head();
         let skin = built.skin(n as u32).unwrap();
         for (row, column) in roots() {
-            let p = world.inverse().transform_point3(vertex(row, column, n).as_vec3());
+            // The scene faces +x, whatever the file does; its origin is the file's.
+            let there = built.model.placement.head_from_file().transform_vector3(vertex(row, column, n).as_vec3());
+            let p = world.inverse().transform_point3(there);
             let nearest = skin.iter().map(|v| v.distance(p)).fold(f32::INFINITY, f32::min);
             assert!(nearest < 1e-4, "frame {n}: {nearest} cm");
             // Between the samples, a third of a centimetre apart, of a coarse ball.
