@@ -163,7 +163,7 @@ def main():
     openjd = environment()
     if arguments.environment:
         return
-    nabiki = arguments.nabiki or build()
+    nabiki = arguments.nabiki.resolve() if arguments.nabiki else build()
     names(openjd, nabiki)
 
     for scene, changes, shards, frames_a_task, frames in JOBS:
