@@ -20,7 +20,7 @@ use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
 pub use self::bending::BendingSkin;
-pub(crate) use self::nearest::Nearest;
+pub(crate) use self::nearest::{Nearest, weights};
 use self::sample::SLICE;
 pub(crate) use self::sample::{Places, whole};
 pub use self::stored::Samples;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
 
-use crate::distance::Nearest;
+use crate::distance::{Nearest, weights};
 use crate::error::SettingError;
 use crate::mesh::{Mesh, vertex_normals};
 use crate::strands::{Strands, bounds};
@@ -275,8 +275,9 @@ pub(crate) struct SkinPlace {
 
 impl SkinPlace {
     fn new(skin: &Skin, root: Vec3, triangle: usize) -> Self {
-        let (corners, root) = (skin.triangles[triangle], root.as_dvec3());
-        let weights = weights(root, corners.map(|v| skin.rest.points[v as usize].as_dvec3()));
+        let corners = skin.triangles[triangle];
+        let weights = weights(corners.map(|v| skin.rest.points[v as usize]), root).as_dvec3();
+        let root = root.as_dvec3();
         let mut place = Self { corners, weights, rest: DVec3::ZERO, axes: None, root };
         place.rest = place.at(&skin.rest);
         place.axes = place.axes_in(&skin.rest);
@@ -325,23 +326,4 @@ fn axes(frame: &SkinFrame, corners: &[u32; 3], weights: DVec3) -> Option<DMat3> 
     let (normal, _) = (normal.try_normalize()?, (b - a).cross(c - a).try_normalize()?);
     let across = normal.cross(b - a).try_normalize()?;
     Some(DMat3::from_cols(across.cross(normal), across, normal))
-}
-
-/// Weights of the corners of a triangle at its point nearest to `p`.
-fn weights(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
-    let [a, b, c] = corners;
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let normal = ab.cross(ac);
-    let [v, w] = [ap.cross(ac), ab.cross(ap)].map(|part| part.dot(normal) / normal.length_squared());
-    if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
-        return DVec3::new(1.0 - v - w, v, w);
-    }
-    let on_edge = |i: usize| {
-        let (from, to) = (corners[i], corners[(i + 1) % 3]);
-        let part = ((p - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
-        let mut weights = DVec3::ZERO;
-        (weights[i], weights[(i + 1) % 3]) = (1.0 - part, part);
-        (from.lerp(to, part).distance_squared(p), weights)
-    };
-    [0, 1, 2].map(on_edge).into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(DVec3::X, |(_, weights)| weights)
 }

@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
+use super::nearest::weights;
 use super::{COARSE, EDGE, FINE, SLICE, Samples, SkinDistance, rims};
 use crate::Mesh;
 use crate::obstacle::{Obstacle, Reading};
@@ -38,7 +39,7 @@ struct Frame {
     skin: SkinDistance,
     /// The motion of the skin since the frame before at the corners of each block, x fastest.
     moved: Vec<[Vec3; 8]>,
-    /// The largest of a vertex within the samples (cm).
+    /// The largest of a corner of the triangles that are sampled (cm).
     farthest: f32,
 }
 
@@ -248,42 +249,6 @@ impl<'a> Shape<'a> {
         };
         (if (p - at).dot(normal) < 0.0 { -1.0 } else { 1.0 }, at - of(&self.before))
     }
-}
-
-/// Weights of the corners at the point of a triangle nearest to `p`; exactly 0 of those that have none.
-fn weights([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return Vec3::X;
-    }
-    let bp = p - b;
-    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return Vec3::Y;
-    }
-    let cp = p - c;
-    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return Vec3::Z;
-    }
-    let along_ab = d1 * d4 - d3 * d2;
-    if along_ab <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        let part = d1 / (d1 - d3);
-        return Vec3::new(1.0 - part, part, 0.0);
-    }
-    let along_ac = d5 * d2 - d1 * d6;
-    if along_ac <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        let part = d2 / (d2 - d6);
-        return Vec3::new(1.0 - part, 0.0, part);
-    }
-    let along_bc = d3 * d6 - d5 * d4;
-    if along_bc <= 0.0 && d4 >= d3 && d5 >= d6 {
-        let part = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return Vec3::new(0.0, 1.0 - part, part);
-    }
-    let sum = along_ab + along_ac + along_bc;
-    if sum > 0.0 { Vec3::new(along_bc, along_ac, along_ab) / sum } else { Vec3::X }
 }
 
 impl Sampler<'_> {

@@ -1,19 +1,18 @@
 //! The bodies of a scene besides the head: those that hair collides with, and those that are only drawn.
 
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 use nabiki::body::{Body, BodyWay, Shape, skin_of};
-use nabiki::distance::{BendingSkin, SkinDistance};
+use nabiki::distance::SkinDistance;
 use nabiki::strands::bounds;
 use nabiki::{Mesh, Pose, Skin, Strands};
 use nabiki_io::skin::says_rigid;
 use nabiki_io::{Placement, declared_space, mesh};
 
 use super::groom::Groom;
-use super::skin::{bending, frames_of};
-
+use super::skin::{Sampled, frames_of};
 use super::stage::{At, Stage};
 use super::way::WayInputs;
 use crate::error::Result;
@@ -37,15 +36,7 @@ pub(crate) struct BuiltBody {
     /// Its shape: a capsule, or the skin of the mesh once that is needed for contact.
     shape: OnceLock<Shape>,
     /// The same of what bends.
-    bending: Mutex<Option<Sampled>>,
-}
-
-/// A skin that bends, with the box and the margin that it was sampled for.
-#[derive(Debug)]
-struct Sampled {
-    within: [Vec3; 2],
-    margin: f32,
-    skin: Arc<BendingSkin>,
+    bending: Sampled,
 }
 
 /// The inputs of a body.
@@ -124,7 +115,7 @@ impl Stage for BuiltBody {
         };
         let mut unread: Vec<String> = unread;
         unread.retain(|line| frames.is_empty() || !says_rigid(line));
-        Ok(Self { inputs, mesh, file, unread, way, frames, placement, shape, bending: Mutex::default() })
+        Ok(Self { inputs, mesh, file, unread, way, frames, placement, shape, bending: Sampled::default() })
     }
 }
 
@@ -159,16 +150,8 @@ impl BuiltBody {
                 self.shape.get_or_init(|| skin.into()).clone()
             }
             None => {
-                let (within, margin) = (reach.in_space_of(&self.way), settings.margin);
-                let mut known = self.bending.lock().unwrap_or_else(PoisonError::into_inner);
-                match &*known {
-                    Some(known) if (known.within, known.margin) == (within, margin) => Shape::Other(known.skin.clone()),
-                    _ => {
-                        let skin = bending(&skin()?, &self.mesh, &self.frames, within, margin)?;
-                        *known = Some(Sampled { within, margin, skin: skin.clone() });
-                        Shape::Other(skin)
-                    }
-                }
+                let (within, of) = (reach.in_space_of(&self.way), (&self.mesh, &self.frames[..]));
+                Shape::Other(self.bending.of(skin, of, within, settings.margin)?)
             }
         };
         Ok(Some(Body::new(name, shape, self.way.clone(), settings.contact())))

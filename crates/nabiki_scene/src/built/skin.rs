@@ -26,8 +26,8 @@ pub(crate) struct Bent {
     inputs: BentInputs,
     /// Head space (cm), from frame 0 to the last; none for a head that does not bend.
     pub frames: Vec<Vec<Vec3>>,
-    /// It as a body, for the largest clearance that was asked for (cm).
-    body: Mutex<Option<(f32, Arc<BendingSkin>)>>,
+    /// It as a body.
+    body: Sampled,
 }
 
 /// The inputs of a skin that bends.
@@ -66,7 +66,7 @@ impl Stage for Bent {
             frames =
                 frames_of(file, (groups, clip), &model.placement, (&way.poses, times), (*last as u32, vertices), at)?;
         }
-        Ok(Self { inputs, frames, body: Mutex::default() })
+        Ok(Self { inputs, frames, body: Sampled::default() })
     }
 }
 
@@ -113,23 +113,44 @@ impl Bent {
             return Ok(None);
         }
         let head = &self.inputs.model.head;
-        let mut known = self.body.lock().unwrap_or_else(PoisonError::into_inner);
-        let skin = match &*known {
-            Some((clearance, skin)) if *clearance == contact.margin => skin.clone(),
-            _ => {
-                // As far around as a rigid head is sampled.
-                let (center, half) = (head.ellipsoid.center, head.ellipsoid.half_axes.max_element());
-                let within = [center - 4.0 * half, center + 4.0 * half];
-                let skin = bending(head.skin(), &head.mesh, &self.frames, within, contact.margin)?;
-                known.insert((contact.margin, skin)).1.clone()
-            }
-        };
+        // As far around as a rigid head is sampled.
+        let (center, half) = (head.ellipsoid.center, head.ellipsoid.half_axes.max_element());
+        let within = [center - 4.0 * half, center + 4.0 * half];
+        let rest = || Ok(head.skin().clone());
+        let skin = self.body.of(rest, (&head.mesh, &self.frames), within, contact.margin)?;
         Ok(Some(Body::new("contact", Shape::Other(skin), BodyWay::WithHead, contact)))
     }
 }
 
+/// The distance to a skin that bends, as it was last asked for: with the box and the clearance.
+#[derive(Debug, Default)]
+pub(super) struct Sampled(Mutex<Option<(Asked, Arc<BendingSkin>)>>);
+
+/// The box, and the clearance (cm).
+type Asked = ([Vec3; 2], f32);
+
+impl Sampled {
+    /// As [`bending`], or the last one again. `rest`: the distance at rest, where that is needed.
+    pub fn of(
+        &self,
+        rest: impl FnOnce() -> Result<Arc<SkinDistance>>,
+        (mesh, frames): (&Mesh, &[Vec<Vec3>]),
+        within: [Vec3; 2],
+        clearance: f32,
+    ) -> Result<Arc<BendingSkin>> {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*known {
+            Some((asked, skin)) if *asked == (within, clearance) => Ok(skin.clone()),
+            _ => {
+                let skin = bending(&rest()?, mesh, frames, within, clearance)?;
+                Ok(known.insert(((within, clearance), skin)).1.clone())
+            }
+        }
+    }
+}
+
 /// The distance to a skin that bends, if it fits into memory. `within`: the box in which it is needed.
-pub(super) fn bending(
+fn bending(
     rest: &Arc<SkinDistance>,
     mesh: &Mesh,
     frames: &[Vec<Vec3>],
