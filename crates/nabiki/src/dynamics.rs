@@ -232,6 +232,9 @@ impl Dynamics {
             if let Some(neighbours) = &mut free.neighbours {
                 neighbours.forces.cohesion = (f64::from(neighbours.forces.cohesion) * ratio) as f32;
             }
+            for aim in &mut free.aims {
+                *aim = aim.times(ratio);
+            }
             for body in &mut free.bodies {
                 body.way = body.way.resampled(self.motion.frames, dynamics.motion.frames);
             }

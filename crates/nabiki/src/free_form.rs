@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use crate::aim::Aim;
 use crate::body::Body;
 use crate::chance::Chance;
 use crate::error::SettingError;
@@ -97,6 +98,11 @@ fn nearest_between(from: Vec3, to: Vec3, place: Vec3) -> Vec3 {
 }
 
 impl FreeForm {
+    /// Number of segments of a strand that the tie holds.
+    pub(crate) fn held(&self, strand: &[Vec3]) -> usize {
+        self.tie.map_or(0, |tie| tie.held(strand))
+    }
+
     /// At least the largest drag of any segment.
     pub(crate) fn most_drag(&self) -> f32 {
         self.regions.iter().fold(self.drag.largest(), |most, region| most * region.drag.max(1.0))
@@ -176,6 +182,8 @@ pub struct FreeMotion {
     /// Which strands belong to each region of [`FreeForm::regions`] that goes by groups or an attribute. `None`, or
     /// nothing, for other regions.
     pub members: Vec<Option<Members>>,
+    /// What leads hair to other shapes in some frames.
+    pub aims: Vec<Aim>,
     /// The head's pose in frame 0. It determines how gravity acts on the hair at rest.
     pub rest_pose: Pose,
 }
@@ -183,7 +191,7 @@ pub struct FreeMotion {
 impl FreeMotion {
     /// The lock of a strand at rest (head space, cm). Tied hair is divided into locks where it leaves its band.
     pub fn lock(&self, strand: &[Vec3]) -> Lock {
-        self.locks.of(strand[self.form.tie.map_or(0, |tie| tie.held(strand))])
+        self.locks.of(strand[self.form.held(strand)])
     }
 
     /// How a strand at rest (head space, cm) differs from the settings of the form.
@@ -195,6 +203,11 @@ impl FreeMotion {
             region.change(&mut own, self.weight_in(i, strand[0]));
         }
         own
+    }
+
+    /// How much the strand with this root (head space at rest, cm) is led by an aim.
+    pub(crate) fn weight_of(&self, aim: &Aim, root: Vec3) -> f64 {
+        aim.region.map_or(1.0, |region| self.weight_in(region, root))
     }
 
     /// The members of a region, if it has any.
@@ -220,6 +233,7 @@ impl FreeMotion {
             return Err(SettingError::new("free.variation.size", self.locks.size, "must be above 0"));
         }
         self.bodies.iter().try_for_each(|body| body.check(frames))?;
+        self.aims.iter().try_for_each(|aim| aim.check(self.form.regions.len()))?;
         check_poses("head.motion", &[self.rest_pose])?;
         match &self.neighbours {
             None => Ok(()),

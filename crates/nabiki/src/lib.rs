@@ -75,6 +75,7 @@
 #[cfg(test)]
 extern crate self as nabiki;
 
+pub mod aim;
 pub mod body;
 #[cfg(test)]
 mod bust;

@@ -16,11 +16,13 @@
 //! | `contact.rs` | bodies for the fast step, and the numbers of contact that both twins use |
 //! | `packed.rs`, `work.rs` | what no frame changes, in blocks; room for one block, kept by each thread |
 //! | `runner.rs` | hair and carriers through the frames; saved states |
+//! | `aimed.rs` | the aims that lead the strands of a block |
 //! | `own.rs` | what each strand makes of the wind, by its lock |
 //!
 //! Carriers are packed apart from the hair that is shown. Both read the grid of the frame before while the carriers
 //! fill the next one. Where many frames are asked for, the carriers go through all of them first.
 
+mod aimed;
 mod along;
 mod contact;
 mod frame;

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::aimed::{self, AimRow};
 use super::kernel::{FreeRow, FreeState, NONE, bend, carry, untwist};
 use super::packed::{Packed, Plan, Step};
 use super::passes::{Blown, Go, Place, Stepped, Velocities};
@@ -67,6 +68,8 @@ impl Packed {
     ) {
         let rows = &self.rows[block.rows()];
         let number = block.first_strand as usize / LANES;
+        let led = self.aimed(number, step.frame);
+        let mut room = led.map(|_| aimed::room(rows.len()));
         let mut ride = step.skin.map(|skin| RideRow::new(&skin, self.places(block), &self.anchors[number], step.steps));
         let h = 1.0 / step.steps as f32;
         let bodies = step.bodies.len() / step.steps as usize;
@@ -79,29 +82,40 @@ impl Packed {
             of.go_along(states, work);
             if n == 1 {
                 of.blow(states, work);
+                if let Some(led) = led {
+                    led.calm(step.frame, work);
+                }
             }
             of.stay_behind(states, h, bodies > 0, work);
             let from_rest = ride.as_ref().map(|ride| &ride.from_rest);
+            // Where aims lead stays the same through the frame, except on skin that turns.
+            if let (Some(led), Some(room)) = (led, &mut room)
+                && (n == 1 || from_rest.is_some())
+            {
+                led.lead(step.frame, from_rest, &mut room[..rows.len()]);
+            }
+            let aims = room.as_ref().map(|room| &room[..rows.len()]);
             carry(states, rows, &of.roots(), from_rest, carried, work);
             untwist(work);
-            bend(states, rows, from_rest, work);
+            bend(states, rows, from_rest, aims, work);
             let bodies = &step.bodies[(n - 1) * bodies..n * bodies];
             let closer = bodies.iter().map(|body| body.closer).fold(0.0, f32::max);
             let stepped = Stepped { of, bodies, h, closer };
             stepped.push(states, work);
-            solve_chain::<false>(states, rows, h, &NONE, work);
+            solve_chain::<false>(states, rows, aims, h, &NONE, work);
             // Joints hold a pressed node, so it does not move as pushed: tensions need not take the other nodes there.
             if !bodies.is_empty()
                 && let Some(pressed) = pressed(states)
             {
                 for _ in 0..ROUNDS_PRESSED {
-                    answer(rows, h, &pressed, work);
-                    solve_chain::<true>(states, rows, h, &pressed, work);
+                    answer(rows, aims, h, &pressed, work);
+                    solve_chain::<true>(states, rows, aims, h, &pressed, work);
                 }
             }
             let page = if n == step.steps as usize { page.take() } else { None };
             block.walk(&of.roots(), states, rows, page, Go::new(stepped, work));
         }
+        room.into_iter().for_each(aimed::keep);
     }
 
     /// Leaves in the increments of hair at rest what drives them there: rounding errors.
@@ -110,7 +124,7 @@ impl Packed {
         let (rows, first) = (&self.rows[block.rows()], block.rows().start);
         carry(states, rows, &block.roots, None, None, work);
         untwist(work);
-        bend(states, rows, None, work);
+        bend(states, rows, None, None, work);
         for (i, (row, work)) in rows.iter().zip(&mut *work).enumerate() {
             work.drag = self.air(first + i).air;
             for lane in 0..LANES {
@@ -129,11 +143,18 @@ impl Packed {
 /// Finds the tensions, and the increments at the end of a step of `h` frames. `ANSWERED`: takes into account how the joints of the
 /// `pressed` strands answered before, see [`answer`].
 #[inline(always)]
-fn solve_chain<const ANSWERED: bool>(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
+fn solve_chain<const ANSWERED: bool>(
+    states: &[FreeState],
+    rows: &[FreeRow],
+    aims: Option<&[AimRow]>,
+    h: f32,
+    pressed: &Row,
+    work: &mut [Work],
+) {
     pull_taut::<ANSWERED>(states, rows, work);
     slacken(work);
     drive(states, rows, work);
-    solve(states, rows, h, pressed, work);
+    solve(states, rows, aims, h, pressed, work);
     unwind(work);
 }
 

@@ -11,6 +11,7 @@
 
 use glam::Quat;
 
+use super::aimed::AimRow;
 use super::pulls::{hold, joints, weight};
 use super::rotate::turned;
 use super::segment::FreeSegment;
@@ -256,7 +257,13 @@ pub(super) fn untwist(work: &mut [Work]) {
 
 /// Goes to the tips with the new twists of the joints: s_i, the shear of their moments. `from_rest`: as in [`carry`].
 #[inline(always)]
-pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], from_rest: Option<&FrameRow>, work: &mut [Work]) {
+pub(super) fn bend(
+    states: &mut [FreeState],
+    rows: &[FreeRow],
+    from_rest: Option<&FrameRow>,
+    aims: Option<&[AimRow]>,
+    work: &mut [Work],
+) {
     let torsion = joints::TORSION as f32;
     let (mut before, mut turned_before) = (ZERO, NONE);
     for (i, (state, row)) in states.iter_mut().zip(rows).enumerate() {
@@ -292,7 +299,14 @@ pub(super) fn bend(states: &mut [FreeState], rows: &[FreeRow], from_rest: Option
             set_lane(&mut held, lane, add(supported, hold::moment_lane(hold.0[lane], lane_of(&rest, lane), d)));
             set_lane(&mut end_way, lane, scale(over_length.0[lane], d));
         }
-        // The shear is only hold and support until the moment of the next joint is known.
+        if let Some(AimRow { toward, hold }) = aims.map(|aims| aims[i]) {
+            for lane in 0..LANES {
+                let led = hold::moment_lane(hold.0[lane], lane_of(&toward, lane), lane_of(&direction, lane));
+                let all = add(lane_of(&held, lane), led);
+                set_lane(&mut held, lane, all);
+            }
+        }
+        // The shear is only hold, support and aims until the moment of the next joint is known.
         (work.shear, work.end_way) = (held, end_way);
     }
     if let Some(last) = work.last_mut() {

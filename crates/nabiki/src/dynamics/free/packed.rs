@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::Vec3;
 
+use super::aimed::AimedBlock;
 use super::contact::PlacedBody;
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, HeadWay};
@@ -52,6 +53,8 @@ pub(super) struct Packed {
     places: Vec<SkinPlace>,
     /// How strands modify the wind, block by block; empty if all are alike.
     own: Vec<OwnRow>,
+    /// The aims that lead strands, block by block; empty without aims.
+    aimed: Vec<Option<AimedBlock>>,
     /// eps_i, where the scene has a pseudo-force.
     pub weakening: Option<(Surroundings, Vec<Row>)>,
     /// For each body, the surface that the ends of the segments are kept out of.
@@ -98,6 +101,7 @@ impl Packed {
             anchors: Vec::new(),
             places: Vec::new(),
             own: Vec::new(),
+            aimed: Vec::new(),
             kept_from: Vec::new(),
             shapes: 0,
             at_rest: Vec::new(),
@@ -146,6 +150,10 @@ impl Packed {
         if self.free.form.wind_differs() {
             let own = range.clone().map(|s| self.free.own(strands.strand(s)));
             self.own.push(OwnRow::of(own));
+        }
+        if !self.free.aims.is_empty() {
+            let skin = self.dynamics.skin.as_deref();
+            self.aimed.push(AimedBlock::of(&self.free, strands, range.start, &segments, rows.len(), skin));
         }
         let mut anchors = block.roots;
         for (lane, (s, segments)) in range.zip(&segments).enumerate() {
@@ -371,6 +379,12 @@ impl Packed {
     #[inline(always)]
     pub fn own(&self, block: usize) -> Option<&OwnRow> {
         self.own.get(block)
+    }
+
+    /// The aims that act on strands of a block in a frame; none if there are none.
+    #[inline(always)]
+    pub fn aimed(&self, block: usize, frame: u32) -> Option<&AimedBlock> {
+        self.aimed.get(block)?.as_ref().filter(|aimed| aimed.acts(frame))
     }
 
     /// The places of the skin that carry the strands of a block; none without skin that moves.

@@ -1,5 +1,6 @@
 //! The specification of the free form: one segment at a time, in f64, as docs/motion-forms.md writes it.
 
+mod aimed;
 mod chain;
 mod common;
 mod contact;

@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::pulls::{hold, joints, weight};
+use crate::aim::swing;
 use crate::dynamics::Dynamics;
 use crate::dynamics::gain::{SegmentShape, push, segment_shapes};
 use crate::error::SettingError;
@@ -26,6 +27,8 @@ pub(in crate::dynamics) struct FreeSegment {
     pub supports: f64,
     /// C_i: the moment per radian with which hold turns it back.
     pub hold: f64,
+    /// The moment per radian of an aim of strength 1.
+    pub lever: f64,
     /// alpha_i, the share of the node's speed that the air takes (1 per frame).
     pub air: f64,
     /// The share of the head's motion that it is left behind by.
@@ -51,11 +54,6 @@ pub fn substeps(dynamics: &Dynamics, form: &FreeForm, gravity: f32, [length, seg
     (swing / SWING).max(ripple / RIPPLE).ceil().clamp(2.0, 32.0) as u32
 }
 
-/// Number of segments of a strand that a tie holds.
-fn held(form: &FreeForm, strand: &[Vec3]) -> usize {
-    form.tie.map_or(0, |tie| tie.held(strand))
-}
-
 /// Every segment of one strand, root first, as the check of forces asks: the gain of those that move is A h^2 / L, by which a force of 1
 /// moves the strand in a step of h frames, in its own lengths; more where it takes more of the air than others.
 ///
@@ -67,7 +65,7 @@ pub(in crate::dynamics) fn shapes(
     strand: &[Vec3],
     s: usize,
 ) -> Result<Vec<SegmentShape>, SettingError> {
-    let held = held(&free.form, strand);
+    let held = free.form.held(strand);
     let mut shapes = segment_shapes(dynamics, strand, s, held)?;
     let length = shapes[held..].iter().map(|shape| shape.length).sum();
     let step = 1.0 / f64::from(free.form.steps());
@@ -87,7 +85,7 @@ pub(in crate::dynamics) fn free_segments(
     s: usize,
 ) -> Result<Vec<FreeSegment>, SettingError> {
     let form = &free.form;
-    let held = held(form, strand);
+    let held = form.held(strand);
     let shapes = segment_shapes(dynamics, strand, s, held)?;
     let points: Vec<DVec3> = strand.iter().map(|p| p.as_dvec3()).collect();
     let length: f64 = shapes[held..].iter().map(|shape| shape.length).sum();
@@ -103,6 +101,7 @@ pub(in crate::dynamics) fn free_segments(
         up: DVec3::ZERO,
         supports: 0.0,
         hold: 0.0,
+        lever: 0.0,
         air: 0.0,
         drag: 0.0,
     };
@@ -127,10 +126,18 @@ pub(in crate::dynamics) fn free_segments(
             up,
             supports,
             hold: hold::moment_per_radian(push, held, length - middle, shape.length),
+            lever: hold::moment_per_radian(push, 1.0, length - middle, shape.length),
             air: own.air * form.air(shape.middle) / (own.settle * f64::from(dynamics.motion.slow)),
             drag: own.drag * form.drag.at(shape.middle),
             ..segments[i]
         };
     }
     Ok(segments)
+}
+
+/// See [`swing`]; 0 for a strand that is held to its tip.
+pub(super) fn swing_of(segments: &[FreeSegment]) -> f64 {
+    let free = || segments.iter().filter(|segment| segment.lightness > 0.0);
+    let length: f64 = free().map(|segment| segment.shape.length).sum();
+    free().next().map_or(0.0, |segment| swing(segment.push, length))
 }

@@ -2,6 +2,7 @@
 //!
 //! Loops over lanes are written as in [`kernel`](super::kernel), and for the same reasons.
 
+use super::aimed::AimRow;
 use super::kernel::{BEYOND, FreeRow, FreeState, NONE, ZERO, next};
 use super::reference::{AFTER, AFTER_PRESSED, BEFORE, BENT};
 use super::work::Work;
@@ -107,16 +108,26 @@ type NodeRow = [Row; 4];
 /// Goes to the tips with the pentadiagonal system of the increments, for a step of `h` frames. `pressed`: 1 for strands
 /// that are solved as pressed, 0 for others.
 #[inline(always)]
-pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
+pub(super) fn solve(
+    states: &[FreeState],
+    rows: &[FreeRow],
+    aims: Option<&[AimRow]>,
+    h: f32,
+    pressed: &Row,
+    work: &mut [Work],
+) {
     let share = |free: f64, pressed: f64| move |by: f32| h * h * if by > 0.0 { pressed as f32 } else { free as f32 };
     let implicit = Row(pressed.0.map(share(AFTER, AFTER_PRESSED)));
     let explicit = Row(pressed.0.map(share(BEFORE, 0.0)));
     let nothing = Left { next: NONE, after: NONE, right: ZERO };
     let (mut left, mut node_before): ([Left; 2], NodeRow) = ([nothing; 2], [NONE; 4]);
-    let mut stiffness = answers(&rows[0], rows.get(1), &NONE, &work[0]);
+    let mut stiffness = answers(&rows[0], rows.get(1), aims.map(|aims| &aims[0].hold), &NONE, &work[0]);
     for (i, (state, row)) in states.iter().zip(rows).enumerate() {
         let (of_next, after_next) = match rows.get(i + 1) {
-            Some(next) => (answers(next, rows.get(i + 2), &work[i].bent, &work[i + 1]), i + 2 < rows.len()),
+            Some(next) => {
+                let aimed = aims.map(|aims| &aims[i + 1].hold);
+                (answers(next, rows.get(i + 2), aimed, &work[i].bent, &work[i + 1]), i + 2 < rows.len())
+            }
             None => ([NONE; 3], false),
         };
         let ahead = [next(states, i, &BEYOND.0), if after_next { &states[i + 2] } else { &BEYOND.0 }];
@@ -174,11 +185,16 @@ pub(super) fn solve(states: &[FreeState], rows: &[FreeRow], h: f32, pressed: &Ro
 }
 
 /// Q of a segment: the answer of its force to a turn of the one before it, of itself and of the next. `bent`: the
-/// squared sine of the bend of the joint before it.
+/// squared sine of the bend of the joint before it. `aimed`: the moment per radian of the aims.
 #[inline(always)]
-fn answers(row: &FreeRow, next: Option<&FreeRow>, bent: &Row, work: &Work) -> [Row; 3] {
+fn answers(row: &FreeRow, next: Option<&FreeRow>, aimed: Option<&Row>, bent: &Row, work: &Work) -> [Row; 3] {
     let next = next.map_or(NONE, |next| next.bending);
-    let FreeRow { over_length, bending, hold, .. } = *row;
+    let FreeRow { over_length, bending, mut hold, .. } = *row;
+    if let Some(aimed) = aimed {
+        for lane in 0..LANES {
+            hold.0[lane] += aimed.0[lane];
+        }
+    }
     let Work { bent: bent_after, tension, .. } = *work;
     let bent = *bent;
     let more = BENT as f32;
@@ -211,12 +227,12 @@ pub(super) fn unwind(work: &mut [Work]) {
 /// After a solve of `h` frames: records how the joints of the `pressed` strands answer the turns found, for the
 /// tensions of the next solve.
 #[inline(always)]
-pub(super) fn answer(rows: &[FreeRow], h: f32, pressed: &Row, work: &mut [Work]) {
+pub(super) fn answer(rows: &[FreeRow], aims: Option<&[AimRow]>, h: f32, pressed: &Row, work: &mut [Work]) {
     let share = Row(pressed.0.map(|pressed| -h * AFTER_PRESSED as f32 * pressed));
     let (mut behind, mut here, mut bent) = (ZERO, work[0].driven, NONE);
     for (i, row) in rows.iter().enumerate() {
         let ahead = next(work, i, &BEYOND.2).driven;
-        let [first, second, third] = answers(row, rows.get(i + 1), &bent, &work[i]);
+        let [first, second, third] = answers(row, rows.get(i + 1), aims.map(|aims| &aims[i].hold), &bent, &work[i]);
         let mut answer = ZERO;
         for lane in 0..LANES {
             let sum = scale(first.0[lane], lane_of(&behind, lane));

@@ -156,7 +156,10 @@ impl<S: Scalar> Chain<S> {
         for (i, segment) in segments.iter().enumerate() {
             let (FreeSegment { shape, hold, rest, up, supports, .. }, d) = (segment.moved_by, segment.direction);
             let [rest, up] = [rest, up].map(|v| self.turned_from_rest(v));
-            let on_head = hold::moment(hold, rest, d) + weight::moment(up, supports, d);
+            let mut on_head = hold::moment(hold, rest, d) + weight::moment(up, supports, d);
+            if let Some((toward, aimed)) = segment.aimed {
+                on_head += hold::moment(aimed, toward, d);
+            }
             let moment = self.moments[i] - self.moments[i + 1] + on_head;
             self.forces[i] = moment.cross(d).times(1.0 / shape.length);
         }
@@ -232,7 +235,8 @@ impl<S: Scalar> Chain<S> {
     /// Q, the forces' answer to a turn: for row i the entries before, on and after the diagonal.
     #[inline(always)]
     fn stiffness(&self, i: usize, segments: &[Segment<S>]) -> [S; 3] {
-        let FreeSegment { shape, hold, .. } = segments[i].moved_by;
+        let FreeSegment { shape, mut hold, .. } = segments[i].moved_by;
+        hold += segments[i].aimed.map_or(0.0, |(_, aimed)| aimed);
         let tension = if self.tensions[i].value() > 0.0 { self.tensions[i] } else { S::from(0.0) };
         let [here, next] = [self.bending[i], self.bending[i + 1]];
         let bent = self.bent(i, segments) + self.bent(i + 1, segments);

@@ -2,15 +2,17 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
+use super::aimed::Aimed;
 use super::chain::{Chain, ROUNDS_PRESSED};
 use super::common::Common;
 use super::contact::{Moving, PlacedBody, Touch, kept_from};
+use crate::aim::calming;
 use crate::body::Surface;
 use crate::dynamics::Dynamics;
 use crate::dynamics::air::Air;
 use crate::dynamics::free::grid::Crowd;
 use crate::dynamics::free::pulls::{neighbours, weight};
-use crate::dynamics::free::segment::{FreeSegment, free_segments};
+use crate::dynamics::free::segment::{FreeSegment, free_segments, swing_of};
 use crate::dynamics::free::{ANSWER, ROUNDS};
 use crate::dynamics::ride::Ride;
 use crate::error::SettingError;
@@ -43,6 +45,8 @@ pub(in crate::dynamics) struct Strand<S> {
     own: Own,
     /// The place of the skin that carries its root, and that point of it at rest.
     on_skin: Option<(SkinPlace, DVec3)>,
+    /// The aims that lead it.
+    aims: Aimed,
     /// How that place carries it in this frame.
     ride: Option<Ride>,
     /// Whether a step has shifted its points.
@@ -63,6 +67,8 @@ pub(super) struct Segment<S> {
     pub twist: S,
     /// How strongly a body pushes its end outward (cm per frame^2).
     pressed: S,
+    /// Where the aims of this step lead it, and their moment per radian; none if none acts.
+    pub aimed: Option<(Vector<S>, f64)>,
 }
 
 /// Factors on the settings, which may be unknowns.
@@ -92,6 +98,7 @@ impl<S: Scalar> Segment<S> {
             increment: Vector::zero(),
             twist: S::from(0.0),
             pressed: S::from(0.0),
+            aimed: None,
         }
     }
 
@@ -156,6 +163,7 @@ impl<S: Scalar> Strand<S> {
             anchor,
             own,
             on_skin: place.map(|place| (place, strand[anchor].as_dvec3())),
+            aims: Aimed::of(free, strand, dynamics.skin.as_deref()),
             ride: None,
             is_shifted: false,
         };
@@ -191,6 +199,7 @@ impl<S: Scalar> Strand<S> {
             increment: segment.increment.value().into(),
             twist: S::from(segment.twist),
             pressed: S::from(segment.pressed),
+            aimed: None,
         };
         let vectors = |of: &[Vector<f64>]| of.iter().map(|v| v.value().into()).collect::<Vec<Vector<S>>>();
         Self {
@@ -206,6 +215,7 @@ impl<S: Scalar> Strand<S> {
             anchor: known.anchor,
             own: known.own,
             on_skin: known.on_skin,
+            aims: known.aims.clone(),
             ride: None,
             is_shifted: false,
         }
@@ -248,7 +258,9 @@ impl<S: Scalar> Strand<S> {
             }
             if n == 1 {
                 self.blow(common, air, crowd);
+                self.calm(common.frame);
             }
+            self.aim(common.frame);
             if let Some((axis, angle)) = turn {
                 self.segments.iter_mut().for_each(|segment| segment.stay_behind(axis, angle, share));
                 self.place();
@@ -269,6 +281,29 @@ impl<S: Scalar> Strand<S> {
                 }
             }
             self.go(bodies, share);
+        }
+    }
+
+    /// Sets where the aims lead the segments.
+    #[inline(always)]
+    fn aim(&mut self, frame: u32) {
+        let strength = self.aims.strength(frame);
+        for (i, segment) in self.segments.iter_mut().enumerate() {
+            segment.aimed = (strength > 0.0).then(|| {
+                let toward = self.chain.turned_from_rest(self.aims.toward(i, frame));
+                (toward, strength * segment.moved_by.lever)
+            });
+        }
+    }
+
+    /// Slows its nodes while aims lead it.
+    #[inline(always)]
+    fn calm(&mut self, frame: u32) {
+        let strength = self.aims.strength(frame);
+        if strength > 0.0 {
+            let segments: Vec<FreeSegment> = self.segments.iter().map(|segment| segment.moved_by).collect();
+            let calming = calming(swing_of(&segments), strength);
+            self.chain.drag.iter_mut().for_each(|drag| *drag += S::from(calming));
         }
     }
 
