@@ -35,7 +35,7 @@ MODULES = {
     "hair": ["hair"],
     "picture": ["picture", "output"],
     "wind": ["force", "wind", "gust", "body_wind", "flow", "turbulence", "point", "vortex", "fan"],
-    "motion": ["motion", "free", "contact", "neighbours", "pseudo_force", "disturbance"],
+    "motion": ["motion", "free", "contact", "neighbours", "aim", "pseudo_force", "disturbance"],
     "head": ["head", "body"],
 }
 

@@ -24,8 +24,8 @@ Start with:
   nabiki preview scenes/gust.toml --set \"force.1.vector=[-600,120,80]\"
   nabiki run scenes/gust.toml                         the full movie
 
-A scene is a TOML file. Its tables: head, hair; motion, free, contact, body, neighbours, pseudo_force, disturbance;
-force, wind, gust, body_wind, flow, turbulence, point, vortex, fan; picture, output. The files in scenes/ have comments.
+A scene is a TOML file. Its tables: head, hair; motion, free, contact, body, aim, neighbours, pseudo_force,
+disturbance; force, wind, gust, body_wind, flow, turbulence, point, vortex, fan; picture, output. The files in scenes/ have comments.
 Exit codes: 0 success, 1 error (one line gives the reason), 2 wrong command line. Signals act as usual: 130 in a
 shell for Ctrl-C; signals that nohup ignores stay ignored."
 )]

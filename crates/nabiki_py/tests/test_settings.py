@@ -53,6 +53,13 @@ at = [-12, 0, 0]
 point = [0, 0, 0]
 normal = [0, -1, 0]
 region = "top"
+[[aim]]
+region = "fringe"
+file = "p.usda"
+frame = 4
+through = 9
+[[aim]]
+toward = [1, 2, 3]
 [[body]]
 mesh = "b.obj"
 {LIE}motion = {MOTION}

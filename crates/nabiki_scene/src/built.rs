@@ -1,5 +1,6 @@
 //! A scene with everything loaded: the head, the hair, and what moves them.
 
+mod aims;
 mod bodies;
 mod build;
 mod dynamics;
@@ -9,6 +10,14 @@ mod identity;
 mod model;
 mod skin;
 mod stage;
+/// See [`BuiltScene::hair_origin`].
+fn hair_origin(scene: &Scene, groom: &Groom) -> Option<Origin> {
+    let Imported { placement, report, curves, .. } = groom.imported.as_ref()?;
+    let in_world = scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
+    let (placement, groom) = (*placement, curves.clone());
+    Some(Origin { placement, points: report.points_in_file as u64, groom, in_world })
+}
+
 #[cfg(test)]
 mod tests;
 mod way;
@@ -37,6 +46,7 @@ pub use way::Way;
 
 pub(crate) use way::holds_scenes;
 
+use aims::AimFile;
 use bodies::BuiltBody;
 use model::ModelInputs;
 pub(crate) use skin::{Bent, Scalp};
@@ -64,6 +74,8 @@ pub struct BuiltScene {
     pub dynamics: Dynamics,
     /// The scene's bodies, in their order; none in the paper's form.
     pub(crate) bodies: Vec<Arc<BuiltBody>>,
+    /// The files of its aims, in their order.
+    pub(crate) aim_files: Vec<Arc<AimFile>>,
     /// How strong a wind of 1 cm/s is, in the free form.
     of_speed: f64,
 }
@@ -308,10 +320,7 @@ impl BuiltScene {
 
     /// The origin of imported hair, for exports into the space of its file and for motion caches.
     pub fn hair_origin(&self) -> Option<Origin> {
-        let Imported { placement, report, curves, .. } = self.groom.imported.as_ref()?;
-        let in_world = self.scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
-        let (placement, groom) = (*placement, curves.clone());
-        Some(Origin { placement, points: report.points_in_file as u64, groom, in_world })
+        hair_origin(&self.scene, &self.groom)
     }
 
     /// The hair at rest with its points in the order of its file, which may have strands tip first.

@@ -1,6 +1,7 @@
 //! What looks wrong before anything is drawn: size and place of a head and its hair, a forgotten unit, hair beside the
 //! head or in it, a skull with a hole, a head that jumps; and settings that change nothing.
 
+mod aims;
 mod twice;
 mod unused;
 
@@ -40,6 +41,7 @@ fn advice(built: &BuiltScene) -> Vec<Advice> {
     advice.extend(of_head.into_iter().chain(of_hair).chain(untied(built)).chain(unbound(built)));
     advice.extend(cropped(built));
     advice.extend(empty_regions(built));
+    advice.extend(aims::advice(built));
     advice.extend(open_bodies(built));
     advice.extend(within_the_head(built));
     advice.extend(leap(built));

@@ -1,10 +1,11 @@
 //! The scene: everything that determines a movie. It is built in code or read from TOML, and can be written back.
 //!
 //! Tables of the file: `[head]`, `[hair]` with `[hair.style]` and `[hair.hairline]`, `[motion]`, `[free]`, `[contact]`,
-//! one `[[body]]` per body, `[neighbours]`, `[pseudo_force]`, one `[[force]]` per interval of the paper's field, the
+//! one `[[body]]` per body, one `[[aim]]` per aim, `[neighbours]`, `[pseudo_force]`, one `[[force]]` per interval of the paper's field, the
 //! other fields ([`FieldSettings`]), `[disturbance]`, `[picture]`, `[output]`. All are optional, except that the
 //! paper's form needs a field. The defaults are the paper's. Paths are relative to the scene file.
 
+mod aim;
 mod body;
 mod edit;
 mod error;
@@ -39,6 +40,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 use toml_edit::DocumentMut;
 
+pub use aim::AimSettings;
 pub use body::{BodySettings, CapsuleSettings};
 pub use error::{Problem, SceneError};
 pub use field::{FieldBound, FieldSettings, OwnField};
@@ -89,6 +91,8 @@ pub struct Scene {
     pub contact: Contact,
     /// `[[body]]`: other bodies that hair collides with in the free form.
     pub bodies: Vec<BodySettings>,
+    /// `[[aim]]`: shapes that hair is led to in the free form.
+    pub aims: Vec<AimSettings>,
     /// `[neighbours]`: hair against hair in the free form.
     pub neighbours: Option<NeighbourForces>,
     /// `[pseudo_force]`
@@ -109,7 +113,7 @@ pub struct Scene {
 impl PartialEq for Scene {
     fn eq(&self, other: &Self) -> bool {
         let Self { head, hair, motion, form, free, contact, .. } = self;
-        let Self { bodies, neighbours, pseudo_force, field, disturbance, picture, output, .. } = self;
+        let Self { bodies, aims, neighbours, pseudo_force, field, disturbance, picture, output, .. } = self;
         *head == other.head
             && *hair == other.hair
             && *motion == other.motion
@@ -117,6 +121,7 @@ impl PartialEq for Scene {
             && *free == other.free
             && *contact == other.contact
             && *bodies == other.bodies
+            && *aims == other.aims
             && *neighbours == other.neighbours
             && *pseudo_force == other.pseudo_force
             && *field == other.field
@@ -137,6 +142,7 @@ struct Tables {
     free: FreeSettings,
     contact: Contact,
     body: Vec<BodySettings>,
+    aim: Vec<AimSettings>,
     neighbours: Option<NeighbourForces>,
     pseudo_force: PseudoForce,
     force: Vec<ForceSettings>,
@@ -213,6 +219,7 @@ impl Scene {
             free: tables.free,
             contact: tables.contact,
             bodies: tables.body,
+            aims: tables.aim,
             neighbours: tables.neighbours,
             pseudo_force: tables.pseudo_force,
             field: FieldSettings {
@@ -246,6 +253,7 @@ impl Scene {
         self.free.check()?;
         self.contact.check_at("contact")?;
         self.bodies.iter().enumerate().try_for_each(|(i, body)| body.check_at(&format!("body[{i}]")))?;
+        self.aims.iter().enumerate().try_for_each(|(i, aim)| self.check_aim(aim, &format!("aim[{i}]")))?;
         self.neighbours.as_ref().map_or(Ok(()), NeighbourForces::check)?;
         self.pseudo_force.check()?;
         self.field.check(self.head.motion.is_some(), self.form == FormChoice::Free)?;
@@ -259,6 +267,25 @@ impl Scene {
         self.picture.check()?;
         self.output.check()?;
         self.output.check_frames(self.motion.frames)
+    }
+
+    /// Refuses an aim that leads to no shape, or leads a region that there is not.
+    fn check_aim(&self, aim: &AimSettings, name: &str) -> Result<(), SettingError> {
+        aim.check_at(name)?;
+        let Some(region) = aim.region.as_ref().filter(|region| self.region_named(region).is_none()) else {
+            return Ok(());
+        };
+        let there: Vec<String> = self.free.regions.iter().map(|region| format!("\"{}\"", region.name)).collect();
+        let remedy = match &there[..] {
+            [] => "there are no [[free.regions]]: add the region, or leave it out to lead all hair".to_owned(),
+            _ => format!("there is no such region: give one of {}", there.join(", ")),
+        };
+        Err(SettingError::new(format!("{name}.region"), format!("\"{region}\""), remedy))
+    }
+
+    /// The index of the region of this name.
+    pub(crate) fn region_named(&self, name: &str) -> Option<usize> {
+        self.free.regions.iter().position(|region| region.name == name)
     }
 
     /// Refuses a wind given by its speed if no air carries the hair.
@@ -330,6 +357,7 @@ impl Scene {
                 named.extend(motion.skeleton.as_deref());
             }
         }
+        named.extend(self.aims.iter().map(|aim| &*aim.file).filter(|file| !file.as_os_str().is_empty()));
         let mut inputs = vec![self.file().to_owned()];
         inputs.extend(named.into_iter().map(|path| self.resolve(path)));
         inputs
@@ -411,6 +439,8 @@ impl Scene {
         tree.insert("contact".to_owned(), table_of(&self.contact)?.into());
         let bodies = self.bodies.iter().map(|body| table_of(body).map(Value::Table)).collect::<Result<_, _>>()?;
         tree.insert("body".to_owned(), Value::Array(bodies));
+        let aims = self.aims.iter().map(|aim| table_of(aim).map(Value::Table)).collect::<Result<_, _>>()?;
+        tree.insert("aim".to_owned(), Value::Array(aims));
         if let Some(neighbours) = &self.neighbours {
             tree.insert("neighbours".to_owned(), table_of(neighbours)?.into());
         }

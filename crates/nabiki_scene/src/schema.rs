@@ -16,8 +16,8 @@ use nabiki::setting::{Datum, Key, Kind, Range, Setting, Settings, Step, Table, p
 use nabiki_render::Picture;
 
 use crate::scene::{
-    AnyHair, AnyHead, BodySettings, BuiltinHead, ForceSettings, FormKey, FreeSettings, GrownHair, ImportedHair,
-    ImportedHead, Output,
+    AimSettings, AnyHair, AnyHead, BodySettings, BuiltinHead, ForceSettings, FormKey, FreeSettings, GrownHair,
+    ImportedHair, ImportedHead, Output,
 };
 
 /// A table at the top of a scene file.
@@ -75,6 +75,7 @@ pub const TABLES: &[SceneTable] = &[
     SceneTable::of("free", Always, &[FreeSettings::TABLE]),
     SceneTable::of("contact", Always, &[Contact::TABLE]),
     SceneTable::of("body", ManyTimes, &[BodySettings::TABLE]),
+    SceneTable::of("aim", ManyTimes, &[AimSettings::TABLE]),
     SceneTable::of("neighbours", IfGiven, &[NeighbourForces::TABLE]),
     SceneTable::of("pseudo_force", Always, &[PseudoForce::TABLE]),
     SceneTable::of("force", ManyTimes, &[ForceSettings::TABLE]),

@@ -168,6 +168,7 @@ fn full(key: &str) -> Scene {
     // A body is a mesh or a capsule.
     let of_capsule = key.starts_with("body[0].capsule");
     put("body[0].mesh", if of_capsule { "" } else { "b.obj" }.into());
+    put("aim[0].file", "pose.usda".into());
     put("free.regions[0].near", Value::Array(vec![0.0.into(); 3]));
     put("head.motion", toml::Table::new().into());
     put("picture.hair.colour", toml::from_str::<toml::Table>("melanin = { eumelanin = 1.0 }").unwrap().into());

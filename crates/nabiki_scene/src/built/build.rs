@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nabiki::dynamics::carrying_force;
+use nabiki::dynamics::{carrying_force, earth_gravity};
 use nabiki_io::cache::Shard;
 use nabiki_render::colour;
 
@@ -64,18 +64,22 @@ fn build_about(
     let inputs = ScalpInputs { bent: bent.clone(), groom: groom.clone() };
     let scalp = Scalp::of(inputs, known.iter().map(|known| &known.scalp), at)?;
     dynamics.skin = scalp.skin.clone();
-    let (mut bodies, mut of_speed) = (Vec::new(), 0.0);
+    let (mut bodies, mut aim_files, mut of_speed) = (Vec::new(), Vec::new(), 0.0);
     if scene.form == FormChoice::Free {
         let mean = mean_lengths(&groom.first);
         let form = scene.free.resolved(&dynamics, mean);
         of_speed = carrying_force(&dynamics, mean.strand, form.settle.mean());
+        let earth = earth_gravity(&dynamics, mean.strand).into();
+        let known_files = known.iter().flat_map(|known| &known.aim_files);
+        let aims;
+        (aims, aim_files) = super::aims::aims(&scene, &way, &groom, earth, known_files, at)?;
         let known = known.iter().flat_map(|known| &known.bodies);
-        bodies = set_free(&mut dynamics, form, &scene, (&model, &way, &bent), &groom, rest_pose, known, at)?;
+        bodies = set_free(&mut dynamics, (form, aims), &scene, (&model, &way, &bent), &groom, rest_pose, known, at)?;
     }
     let intervals = scene.field.force.iter().map(|force| force.keyframe(of_speed)).collect();
     let inputs = ForcesInputs::of(&scene, &model, &way, intervals);
     let forces = Forces::of(inputs, known.iter().map(|known| &known.forces), at)?;
-    Ok(BuiltScene { scene, model, way, bent_head: bent, groom, scalp, forces, dynamics, bodies, of_speed })
+    Ok(BuiltScene { scene, model, way, bent_head: bent, groom, scalp, forces, dynamics, bodies, aim_files, of_speed })
 }
 
 /// The bound of each field of the scene, and last that of `all` together.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use nabiki::aim::Aim;
 use nabiki::dynamics::{Dynamics, Form};
 use nabiki::free_form::{FreeForm, FreeMotion, Neighbours};
 use nabiki::locks::Locks;
@@ -62,7 +63,7 @@ pub(super) fn mean_lengths(first: &Strands) -> MeanLengths {
 #[expect(clippy::too_many_arguments, reason = "all that surrounds the hair")]
 pub(super) fn set_free<'a>(
     dynamics: &mut Dynamics,
-    form: FreeForm,
+    (form, aims): (FreeForm, Vec<Aim>),
     scene: &Scene,
     (model, way, bent): (&Model, &Way, &Bent),
     groom: &Groom,
@@ -86,7 +87,7 @@ pub(super) fn set_free<'a>(
         Neighbours::new(forces.clone(), Arc::new(first.select(&(0..carriers).collect::<Vec<_>>())))
     });
     let (locks, members) = (locks(scene), groom.members.clone());
-    dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, locks, members, rest_pose });
+    dynamics.form = Form::Free(FreeMotion { form, bodies: felt, neighbours, locks, members, aims, rest_pose });
     dynamics.check().map_err(|refused| at.refusal(refused))?;
     Ok(bodies)
 }

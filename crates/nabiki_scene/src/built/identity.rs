@@ -4,6 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use nabiki::Pose;
+use nabiki::aim::AimShape;
 use nabiki::body::BodyWay;
 use nabiki::dynamics::{Form, Motion};
 use nabiki::free_form::FreeMotion;
@@ -124,6 +125,19 @@ impl BuiltScene {
             }
             if let BodyWay::InWorld(poses) = &body.way {
                 poses.iter().for_each(|pose| add_pose(digest, pose));
+            }
+        }
+        for aim in &free.aims {
+            digest.settings("aim", &aim.lead)?;
+            digest.settings("region", &[aim.region.map_or(-1.0, |region| region as f64)])?;
+            match &aim.shape {
+                AimShape::Groom => digest.bytes("groom", &[]),
+                AimShape::Toward(point) => add_numbers(digest, "toward", &point.to_array()),
+                AimShape::Curves(curves) => {
+                    digest.settings("posed", &[curves.frame().map_or(-1.0, f64::from)])?;
+                    add_numbers(digest, "curves", bytemuck::cast_slice(curves.curves().points()));
+                    digest.bytes("starts", bytemuck::cast_slice(&little_endian(curves.curves().starts())));
+                }
             }
         }
         if let Some(neighbours) = &free.neighbours {

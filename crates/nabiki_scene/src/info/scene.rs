@@ -19,8 +19,8 @@ use crate::advice::Advice;
 use crate::built::{BuiltScene, Shown};
 use crate::looks_wrong::unused;
 use crate::scene::{
-    Amount, BodySettings, CapsuleSettings, FieldBound, FieldSettings, ForceSettings, FormChoice, FreeSettings,
-    GrownHair, HairSource, ImportedHair, Measure, Scene,
+    AimSettings, Amount, BodySettings, CapsuleSettings, FieldBound, FieldSettings, ForceSettings, FormChoice,
+    FreeSettings, GrownHair, HairSource, ImportedHair, Measure, Scene,
 };
 use crate::schema;
 use nabiki_io::info::Short;
@@ -90,6 +90,8 @@ pub struct FreeInfo {
     pub margin: f32,
     /// Neighbour forces, if they are on.
     pub neighbours: Option<NeighbourForces>,
+    /// What leads hair to other shapes.
+    pub aims: Vec<AimSettings>,
 }
 
 impl FreeInfo {
@@ -103,6 +105,7 @@ impl FreeInfo {
             resolved,
             margin: scene.contact.margin,
             neighbours: scene.neighbours.clone(),
+            aims: scene.aims.clone(),
         })
     }
 }
@@ -232,7 +235,7 @@ impl fmt::Display for SceneInfo {
 
 impl fmt::Display for FreeInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { given, resolved, margin, neighbours } = self;
+        let Self { given, resolved, margin, neighbours, aims } = self;
         let number = |of: fn(&FreeForm) -> &Profile| resolved.as_ref().map(|form| of(form).values().to_vec());
         let told = [
             amounts("stiffness", &given.stiffness, number(|form| &form.stiffness)),
@@ -254,16 +257,15 @@ impl fmt::Display for FreeInfo {
         for (i, region) in given.regions.iter().enumerate() {
             write!(f, "\nfree.regions[{i}]: {}", OneLine(&region_in_words(region)))?;
         }
+        for (i, aim) in aims.iter().enumerate() {
+            write!(f, "\naim[{i}]: {}", OneLine(&aim_in_words(aim)))?;
+        }
         Ok(())
     }
 }
 
 /// A region: `bangs, groups fringe, roots within 4 to 6 cm of (8.5, 4, 0): hold x 3, wind x 0.3`.
 fn region_in_words(region: &Region) -> String {
-    let point = |p: Vec3| {
-        let [x, y, z] = p.to_array().map(Short);
-        format!("({x}, {y}, {z})")
-    };
     let name = if region.name.is_empty() { String::new() } else { format!("{}, ", region.name) };
     let mut strands = Vec::new();
     if !region.groups.is_empty() {
@@ -290,6 +292,30 @@ fn region_in_words(region: &Region) -> String {
         .collect();
     let told = if told.is_empty() { "no change".to_owned() } else { told.join(", ") };
     format!("{name}{}: {told}", strands.join(", "))
+}
+
+/// An aim: `bow, region fringe: pose.usda in frame 60, 3 g in frames 40 to 60, eased over 12 and 12`.
+fn aim_in_words(aim: &AimSettings) -> String {
+    let name = if aim.name.is_empty() { String::new() } else { format!("{}, ", aim.name) };
+    let hair = aim.region.as_ref().map_or_else(|| "all hair".to_owned(), |region| format!("region {region}"));
+    let shape = match (aim.toward, aim.frame) {
+        (Some(p), _) => format!("toward {}", point(p)),
+        _ if aim.groom => "to the groom".to_owned(),
+        (None, Some(frame)) => format!("{} in frame {frame}", aim.file.display()),
+        (None, None) => format!("{} on the head at rest", aim.file.display()),
+    };
+    let strength = match aim.strength {
+        Amount::Number(number) => format!("strength {}", Short(number)),
+        Amount::World(quantity) => quantity.to_string(),
+    };
+    let end = aim.through.map_or_else(|| "the end".to_owned(), |frame| frame.to_string());
+    let AimSettings { from, ease_in, ease_out, .. } = aim;
+    format!("{name}{hair}: {shape}, {strength} in frames {from} to {end}, eased over {ease_in} and {ease_out}")
+}
+
+fn point(p: Vec3) -> String {
+    let [x, y, z] = p.to_array().map(Short);
+    format!("({x}, {y}, {z})")
 }
 
 /// A setting of `[free]` as given, and its value if it is in a physical unit: `stiffness 9 cm to 4.5 cm (K = 250,000 to

@@ -38,6 +38,7 @@ fn unfelt(scene: &Scene) -> Option<Advice> {
         (scene.free != FreeSettings::default(), "[free]"),
         (scene.contact != Contact::default(), "[contact]"),
         (scene.bodies.iter().any(|body| body.solid), "[[body]]"),
+        (!scene.aims.is_empty(), "[[aim]]"),
         (scene.neighbours.is_some(), "[neighbours]"),
     ];
     let given: Vec<&str> = tables.into_iter().filter(|&(given, _)| given).map(|(_, table)| table).collect();

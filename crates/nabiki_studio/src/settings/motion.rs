@@ -52,6 +52,14 @@ pub(super) const GROUPS: &[Group] = &[
     ))
     .when(When::Free),
     Group::new(
+        "Aims",
+        "aim",
+        "Shapes that hair is led to in some frames.",
+        &["name", "region", "file", "frame", "toward", "groom", "strength", "from", "through", "ease_in", "ease_out"],
+    )
+    .shaped(Shape::List("groom = true"))
+    .when(When::Free),
+    Group::new(
         "Tie",
         "free.tie",
         "A band that ties the hair. From root to band, the hair does not move.",
