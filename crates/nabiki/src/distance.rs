@@ -20,6 +20,7 @@ use glam::{UVec3, Vec3};
 use rayon::prelude::*;
 
 pub use self::bending::BendingSkin;
+pub use self::nearest::Surface;
 pub(crate) use self::nearest::{Nearest, weights};
 use self::sample::SLICE;
 pub(crate) use self::sample::{Places, whole};

@@ -11,7 +11,7 @@ use crate::error::SettingError;
 use crate::locks::{Lock, LockVariation, Locks, Own};
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
-use crate::region::{Members, Region};
+use crate::region::{Belongs, Members, Region};
 use crate::settings;
 use crate::strands::Strands;
 
@@ -105,12 +105,12 @@ impl FreeForm {
 
     /// At least the largest drag of any segment.
     pub(crate) fn most_drag(&self) -> f32 {
-        self.regions.iter().fold(self.drag.largest(), |most, region| most * region.drag.max(1.0))
+        self.regions.iter().fold(self.drag.largest(), |most, region| most * region.drag.largest().max(1.0))
     }
 
     /// The most by which regions multiply the stiffness of hair, as if all of them overlapped.
     pub(crate) fn most_stiffened(&self) -> f64 {
-        self.regions.iter().map(|region| f64::from(region.stiffness.max(1.0))).product()
+        self.regions.iter().map(|region| f64::from(region.stiffness.largest().max(1.0))).product()
     }
 
     /// Whether strands may differ in what they make of the wind.
@@ -179,7 +179,7 @@ pub struct FreeMotion {
     pub neighbours: Option<Neighbours>,
     /// The locks, for [`FreeForm::variation`]. The `size` in those settings is used only by scenes.
     pub locks: Locks,
-    /// Which strands belong to each region of [`FreeForm::regions`] that goes by groups or an attribute. `None`, or
+    /// Which strands belong to each region of [`FreeForm::regions`] that goes by groups, an attribute or a map. `None`, or
     /// nothing, for other regions.
     pub members: Vec<Option<Members>>,
     /// What leads hair to other shapes in some frames.
@@ -199,10 +199,13 @@ impl FreeMotion {
         let mut own = self.form.variation.map_or_else(Own::default, |variation| {
             variation.of(&self.lock(strand), Chance::at_point(self.locks.seed, strand[0]))
         });
-        for (i, region) in self.form.regions.iter().enumerate() {
-            region.change(&mut own, self.weight_in(i, strand[0]));
-        }
+        own.wind *= self.regions_of(strand[0]).wind();
         own
+    }
+
+    /// The regions that the strand with this root (head space at rest, cm) belongs to.
+    pub(crate) fn regions_of(&self, root: Vec3) -> Belongs<'_> {
+        Belongs::new(self.form.regions.iter().enumerate().map(|(i, region)| (region, self.weight_in(i, root))))
     }
 
     /// How much the strand with this root (head space at rest, cm) is led by an aim.
@@ -226,7 +229,7 @@ impl FreeMotion {
         for (i, region) in self.form.regions.iter().enumerate() {
             if region.has_members() && self.members_of(i).is_none() {
                 let key = format!("free.regions[{i}]");
-                return Err(SettingError::new(key, "", "goes by groups or an attribute, so it needs members"));
+                return Err(SettingError::new(key, "", "goes by groups, an attribute or a map, so it needs members"));
             }
         }
         if !(self.locks.size > 0.0 && self.locks.size.is_finite()) {

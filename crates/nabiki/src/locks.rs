@@ -90,14 +90,8 @@ pub struct Own {
     pub air: f64,
     /// Factor on the stiffness.
     pub stiffness: f64,
-    /// Factor on what holds it to its place.
-    pub hold: f64,
-    /// Factor on the frames that it takes to settle.
-    pub settle: f64,
     /// Factor on the force of the field alone.
     pub wind: f64,
-    /// Factor on what a moving head leaves behind.
-    pub drag: f64,
     /// How much the wind on the strand varies in strength and direction.
     pub flutter: f64,
     /// The rhythm of that variation: of its strength, and of the three axes of its turns.
@@ -124,7 +118,7 @@ impl Wave {
 impl Default for Own {
     fn default() -> Self {
         let rhythm = [[Wave::default(); 2]; 4];
-        Self { air: 1.0, stiffness: 1.0, hold: 1.0, settle: 1.0, wind: 1.0, drag: 1.0, flutter: 0.0, rhythm }
+        Self { air: 1.0, stiffness: 1.0, wind: 1.0, flutter: 0.0, rhythm }
     }
 }
 

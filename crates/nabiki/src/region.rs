@@ -2,12 +2,13 @@
 //!
 //! How much a strand belongs to a region depends only on its root, so a preview has the regions of all the hair.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
 use crate::error::SettingError;
-use crate::locks::Own;
+use crate::profile::Profile;
 use crate::setting::{Place, refused};
 use crate::settings;
 use crate::smoothing::rise;
@@ -20,9 +21,9 @@ const MOST: f64 = 10.0;
 settings! {
     /// Hair that moves differently from the rest, such as a fringe that stays in the wind.
     ///
-    /// A strand belongs to the region by its group, by an attribute of the hair, or if its root is near a point or line;
-    /// with several of these, by all of them. Each factor multiplies a setting of `[free]`. Where regions overlap, their
-    /// factors multiply.
+    /// A strand belongs to the region by its group, by an attribute of the hair, by a painted map, or if its root is near
+    /// a point or line; with several of these, by all of them. Each factor multiplies a setting of `[free]`: one number,
+    /// or a list from root to tip. Where regions overlap, their factors multiply.
     pub struct Region where reaches_hair {
         /// Name of the region, for `info`.
         pub name: String = String::new() => "Name";
@@ -34,6 +35,10 @@ settings! {
         /// the root counts. It is how much the strand belongs to the region: 0 not at all, 1 fully.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub attribute: Option<String> = None => "Attribute", open "none";
+        /// A picture over the head, PNG: white where hair belongs to it fully, black where it does not. Hair finds its
+        /// place by its own root UVs, or else by the UVs of the head's mesh where it grows.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub map: Option<PathBuf> = None => "Map", open "none";
         /// Where the region is, in the space of the head at rest.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub near: Option<Vec3> = None => "Near", unit "cm", least -FARTHEST, most FARTHEST, open "everywhere";
@@ -45,23 +50,23 @@ settings! {
         /// Width of its border. Across it, the factors fade to 1.
         pub soft: f32 = 2.0 => "Soft", unit "cm", least 0.0, most FARTHEST;
         /// Factor on `free.stiffness`.
-        pub stiffness: f32 = 1.0 => "Stiffness", least 0.0, most MOST;
+        pub stiffness: Profile = Profile::Even(1.0) => "Stiffness", least 0.0, most MOST;
         /// Factor on `free.hold`.
-        pub hold: f32 = 1.0 => "Hold", least 0.0, most MOST;
+        pub hold: Profile = Profile::Even(1.0) => "Hold", least 0.0, most MOST;
         /// Factor on `free.settle`: at 2, hair swings twice as long.
-        pub settle: f32 = 1.0 => "Settle", least 0.01, most MOST;
+        pub settle: Profile = Profile::Even(1.0) => "Settle", least 0.01, most MOST;
         /// Factor on the forces of all fields. At 0, no wind moves the hair.
         pub wind: f32 = 1.0 => "Wind", least 0.0, most MOST;
         /// Factor on `free.drag`.
-        pub drag: f32 = 1.0 => "Drag", least 0.0, most MOST;
+        pub drag: Profile = Profile::Even(1.0) => "Drag", least 0.0, most MOST;
     }
 }
 
 impl Region {
-    /// Whether the hair itself determines what belongs to the region, by its groups or an attribute. Such a region needs
-    /// [`Members`].
+    /// Whether more than the place determines what belongs to the region: groups, an attribute or a map. Such a region
+    /// needs [`Members`].
     pub fn has_members(&self) -> bool {
-        !self.groups.is_empty() || self.attribute.is_some()
+        !self.groups.is_empty() || self.attribute.is_some() || self.map.is_some()
     }
 
     /// How much a strand with this root (head space at rest, cm) belongs to the region by its place: 1 inside, 0 outside,
@@ -79,26 +84,13 @@ impl Region {
         }
     }
 
-    /// Multiplies what is a strand's own by the factors of the region, to which it belongs by this weight.
-    pub(crate) fn change(&self, own: &mut Own, weight: f64) {
-        if weight == 0.0 {
-            return;
-        }
-        let factor = |factor: f32| (f64::from(factor) - 1.0).mul_add(weight, 1.0);
-        own.stiffness *= factor(self.stiffness);
-        own.hold *= factor(self.hold);
-        own.settle *= factor(self.settle);
-        own.wind *= factor(self.wind);
-        own.drag *= factor(self.drag);
-    }
-
     /// Refuses a region of no hair in particular, a line without a length, and a place that no root can be in.
     fn reaches_hair(&self, at: &Place) -> Result<(), SettingError> {
         let Some(near) = self.near else {
             return match self.to {
                 Some(to) => refused(&at.key("to"), to, "is the end of a line that begins at near: add near"),
                 None if self.has_members() => Ok(()),
-                None => Err(SettingError::new(&at.key("near"), "", "is missing: give near, groups or attribute")),
+                None => Err(SettingError::new(&at.key("near"), "", "is missing: give near, groups, attribute or map")),
             };
         };
         if let Some(to) = self.to.filter(|&to| to == near) {
@@ -111,7 +103,31 @@ impl Region {
     }
 }
 
-/// How much the strands of some hair belong to a region, for regions by group or attribute. Strands are known by their
+/// The regions that a strand belongs to, each with its weight.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Belongs<'a>(Vec<(&'a Region, f64)>);
+
+impl<'a> Belongs<'a> {
+    pub fn new(regions: impl Iterator<Item = (&'a Region, f64)>) -> Self {
+        Self(regions.filter(|&(_, weight)| weight != 0.0).collect())
+    }
+
+    /// `first` times the factors of the regions on a setting at a fraction of the strand's length.
+    pub fn times(&self, first: f64, factor: impl Fn(&Region) -> &Profile, along: f64) -> f64 {
+        self.0
+            .iter()
+            .fold(first, |product, (region, weight)| product * (factor(region).at(along) - 1.0).mul_add(*weight, 1.0))
+    }
+
+    /// The factor on the force of all fields.
+    pub fn wind(&self) -> f64 {
+        self.0
+            .iter()
+            .fold(1.0, |product, (region, weight)| product * (f64::from(region.wind) - 1.0).mul_add(*weight, 1.0))
+    }
+}
+
+/// How much the strands of some hair belong to a region, for regions by group, attribute or map. Strands are known by their
 /// roots, so a subset of the hair has the same members.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Members(Arc<[(Bits, f32)]>);
@@ -153,7 +169,7 @@ mod tests {
     const NEAR: Vec3 = Vec3::new(1.0, 2.0, 3.0);
 
     fn region() -> Region {
-        Region { near: Some(NEAR), within: 2.0, soft: 4.0, hold: 3.0, wind: 0.0, ..Region::default() }
+        Region { near: Some(NEAR), within: 2.0, soft: 4.0, hold: 3.0.into(), wind: 0.0, ..Region::default() }
     }
 
     #[test]
@@ -179,14 +195,15 @@ mod tests {
 
     #[test]
     fn factors_fade_with_the_weight_and_multiply_where_regions_overlap() {
-        let mut own = Own::default();
-        region().change(&mut own, 0.5);
-        assert_eq!((own.hold, own.wind, own.stiffness), (2.0, 0.5, 1.0));
-        region().change(&mut own, 0.5);
-        assert_eq!((own.hold, own.wind), (4.0, 0.25));
-        let mut outside = Own::default();
-        region().change(&mut outside, 0.0);
-        assert_eq!(outside, Own::default());
+        let region = Region { hold: Profile::RootToTip(vec![3.0, 5.0]), ..region() };
+        let belongs = |weights: &[f64]| {
+            let of = Belongs::new(weights.iter().map(|&weight| (&region, weight)));
+            let hold = |along| of.times(1.0, |region| &region.hold, along);
+            ([hold(0.0), hold(0.5), hold(1.0)], of.wind(), of.times(7.0, |region| &region.stiffness, 0.3))
+        };
+        assert_eq!(belongs(&[0.5]), ([2.0, 2.5, 3.0], 0.5, 7.0));
+        assert_eq!(belongs(&[0.5, 0.5]), ([4.0, 6.25, 9.0], 0.25, 7.0));
+        assert_eq!(belongs(&[0.0]), ([1.0; 3], 1.0, 7.0));
     }
 
     #[test]

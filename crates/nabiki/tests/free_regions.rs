@@ -34,12 +34,18 @@ fn hair_of_a_region_moves_as_all_hair_does_under_its_settings() {
     let form = FreeForm { hold: Profile::Even(32.0), ..FreeForm::default() };
     let changed = FreeForm {
         stiffness: Profile::RootToTip(vec![24_000.0, 2000.0]),
-        hold: Profile::Even(128.0),
+        hold: Profile::RootToTip(vec![32.0, 128.0]),
         settle: Profile::Even(10.0),
         drag: Profile::Even(2.0),
         ..form.clone()
     };
-    let region = Region { stiffness: 2.0, hold: 4.0, settle: 0.5, drag: 2.0, ..everywhere() };
+    let region = Region {
+        stiffness: 2.0.into(),
+        hold: Profile::RootToTip(vec![1.0, 4.0]),
+        settle: 0.5.into(),
+        drag: 2.0.into(),
+        ..everywhere()
+    };
     let regional = FreeForm { regions: vec![region], ..form };
     let poses = way_of_a_head(FRAMES);
     let motion = |form: &FreeForm| {
@@ -92,7 +98,7 @@ fn hair_outside_keeps_its_bits_and_hair_that_no_wind_moves_rests_to_the_bit() {
 #[test]
 fn a_subset_moves_as_it_does_within_the_whole() {
     let strands = hair(60, 12);
-    let dynamics = free(with(vec![Region { hold: 5.0, wind: 0.3, ..left() }]));
+    let dynamics = free(with(vec![Region { hold: 5.0.into(), wind: 0.3, ..left() }]));
     let all = run(&mut fast(&strands, &dynamics, &wind()), &wind(), FRAMES);
     let few: Vec<usize> = (0..60).step_by(7).collect();
     let alone = run(&mut fast(&strands.select(&few), &dynamics, &wind()), &wind(), FRAMES);
@@ -103,7 +109,7 @@ fn a_subset_moves_as_it_does_within_the_whole() {
 #[test]
 fn members_move_as_a_place_of_their_weights() {
     let strands = hair(60, 12);
-    let place = Region { hold: 4.0, wind: 0.5, soft: 0.0, ..left() };
+    let place = Region { hold: 4.0.into(), wind: 0.5, soft: 0.0, ..left() };
     let roots = || strands.iter().map(|strand| strand[0]);
     let inside = roots().filter(|&root| place.weight(root) == 1.0).count();
     assert!(inside > 10 && inside < 50, "{inside}");
@@ -127,7 +133,8 @@ fn members_move_as_a_place_of_their_weights() {
 fn the_twins_agree_on_regions() {
     let (strands, wind) = (hair(96, 18), wind());
     let along = Region { to: Some(Vec3::new(0.0, 11.0, -9.0)), within: 3.0, soft: 5.0, wind: 1.5, ..left() };
-    let dynamics = free(with(vec![Region { hold: 3.0, stiffness: 1.7, drag: 0.3, ..left() }, along]));
+    let dynamics =
+        free(with(vec![Region { hold: 3.0.into(), stiffness: 1.7.into(), drag: 0.3.into(), ..left() }, along]));
     let apart = twins_apart(&strands, &dynamics, &wind, 100);
     let most = apart.len() - 1;
     assert!(apart[most - apart.len() / 1000] < 1e-3 && apart[most] < 1e-2, "{:e}", apart[most]);

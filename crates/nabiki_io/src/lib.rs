@@ -41,6 +41,7 @@ pub mod motion;
 pub mod names;
 pub mod obj_lines;
 mod obj_text;
+pub mod painted;
 pub mod placement;
 pub mod screen;
 pub mod shell;

@@ -43,6 +43,7 @@ variation = {{ size = 2.0 }}
 name = "fringe"
 groups = ["top"]
 attribute = "painted"
+map = "m.png"
 near = [8, 4, 0]
 to = [8, 4, 1]
 [motion]

@@ -174,12 +174,13 @@ fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
         let region = &free.form.regions[i];
         let why = match region.near {
             Some(_) if region.has_members() => {
-                "none is near it and also in its groups and attribute; leave out one of these".to_owned()
+                "none is near it and also in its groups, attribute and map; leave out one of these".to_owned()
             }
             Some(_) => {
                 let far = Short(region.within + region.soft);
                 format!("no root is within {far} cm of it; correct near, or raise within")
             }
+            None if region.map.is_some() => "its map is black at all roots; correct it".to_owned(),
             None if region.groups.is_empty() => "its attribute is 0 on all of them; correct it".to_owned(),
             None if region.attribute.is_none() => "none is in its groups; correct these".to_owned(),
             None => "its attribute is 0 on all of its groups; correct one of them".to_owned(),

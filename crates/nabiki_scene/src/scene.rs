@@ -357,6 +357,7 @@ impl Scene {
                 named.extend(motion.skeleton.as_deref());
             }
         }
+        named.extend(self.free.regions.iter().filter_map(|region| region.map.as_deref()));
         named.extend(self.aims.iter().map(|aim| &*aim.file).filter(|file| !file.as_os_str().is_empty()));
         let mut inputs = vec![self.file().to_owned()];
         inputs.extend(named.into_iter().map(|path| self.resolve(path)));

@@ -162,7 +162,7 @@ fn groups_and_attributes_that_are_not_there_are_refused_with_those_that_are() {
             "attribute = \"large\"",
             "free.regions[0].attribute = \"large\": is 1.5 at the root of strand 0 of 4, but must be 0 to 1: correct it in the file",
         ),
-        ("hold = 2", "free.regions[0].near is missing: give near, groups or attribute"),
+        ("hold = 2", "free.regions[0].near is missing: give near, groups, attribute or map"),
     ] {
         let said = imported(region, "", Shown::All).map(|_| ()).unwrap_err();
         assert!(said.contains(line), "{said}");
@@ -170,4 +170,95 @@ fn groups_and_attributes_that_are_not_there_are_refused_with_those_that_are() {
     let bare = "[motion]\nform = \"free\"\n[[free.regions]]\nattribute = \"painted\"\n[[force]]\nthrough = 3\nvector = [1, 0, 0]";
     let said = Scene::parse(bare, Path::new("s.toml"), &[]).unwrap().build(Shown::AtMost(9)).map(|_| ()).unwrap_err();
     assert!(said.to_string().contains("the hair has no attributes with one number per strand or point"), "{said}");
+}
+
+/// A map that is white where u is above a half.
+fn half_white() -> image::GrayImage {
+    image::GrayImage::from_fn(64, 64, |x, _| image::Luma([if x >= 32 { 255 } else { 0 }]))
+}
+
+/// A square head with texture coordinates: u goes from -z to z.
+const PLATE: &str = "v -10 0 -10\nv 10 0 -10\nv 10 0 10\nv -10 0 10\nv 0 -12 0\nvt 0 0\nvt 0 1\nvt 1 1\nvt 1 0\nvt 0.5 0.5\n\
+                     f 4/4 3/3 2/2 1/1\nf 1/1 2/2 5/5\nf 2/2 3/3 5/5\nf 3/3 4/4 5/5\nf 4/4 1/1 5/5\n";
+
+/// The weights of eight strands that grow from a line along z on that head, and what is refused.
+fn mapped(head: &str, more: &str, map: &image::GrayImage) -> Result<(Vec<f32>, Vec<f64>), String> {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let z = |s: i32| -8.75 + 2.5 * s as f32;
+    let points: Vec<String> = (0..8).flat_map(|s| [0, 4, 8].map(|y| format!("(2, {y}, {})", z(s)))).collect();
+    let hair = format!(
+        "#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = \"Y\"\n)\ndef BasisCurves \"hair\"\n{{\n    uniform token type = \
+         \"linear\"\n    int[] curveVertexCounts = [3, 3, 3, 3, 3, 3, 3, 3]\n    point3f[] points = [{}]\n{more}\n}}\n",
+        points.join(", ")
+    );
+    std::fs::write(at("hair.usda"), hair).unwrap();
+    std::fs::write(at("head.obj"), head).unwrap();
+    map.save(at("map.png")).unwrap();
+    let text = "[motion]\nform = \"free\"\n[head]\nmesh = \"head.obj\"\nellipsoid = { center = [0, 0, 0], half_axes = [9, 9, 9] }\n\
+                [hair]\nfile = \"hair.usda\"\nroot = \"first\"\n[[free.regions]]\nmap = \"map.png\"\nwind = 0.5\n\
+                [[force]]\nthrough = 3\nvector = [-40, 0, 0]";
+    let scene = Scene::parse(text, &at("s.toml"), &[]).map_err(|e| e.to_string())?;
+    let built = scene.build(Shown::All).map_err(|e| e.to_string())?;
+    Ok(((0..8).map(z).collect(), weights(&built)))
+}
+
+#[test]
+fn a_painted_map_chooses_hair_by_the_skin_where_it_grows() {
+    let (z, found) = mapped(PLATE, "", &half_white()).unwrap();
+    let expected: Vec<f64> = z.iter().map(|&z| if z > 0.0 { 1.0 } else { 0.0 }).collect();
+    assert_eq!(found, expected);
+    // Half grey is half.
+    let grey = image::GrayImage::from_pixel(3, 3, image::Luma([51]));
+    let (_, found) = mapped(PLATE, "", &grey).unwrap();
+    assert!(found.iter().all(|weight| (weight - 0.2).abs() < 1e-4), "{found:?}");
+}
+
+/// Curves that know their place on the skin are found there, wherever the skin's own coordinates are.
+#[test]
+fn the_roots_own_coordinates_come_first() {
+    let uvs = "    texCoord2f[] primvars:st = [(0.9, 0.5), (0.1, 0.5), (0.9, 0.5), (0.1, 0.5), (0.9, 0.5), (0.1, 0.5), (0.9, \
+               0.5), (0.1, 0.5)] ( interpolation = \"uniform\" )";
+    assert_eq!(mapped(PLATE, uvs, &half_white()).unwrap().1, [1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn a_map_without_coordinates_is_refused() {
+    let bare: String = PLATE.lines().filter(|line| !line.starts_with("vt")).fold(String::new(), |text, line| {
+        let line = line.split(' ').map(|word| word.split('/').next().unwrap()).collect::<Vec<_>>().join(" ");
+        text + &line + "\n"
+    });
+    let said = mapped(&bare, "", &half_white()).unwrap_err();
+    assert!(
+        said.contains(
+            "free.regions[0].map = \"map.png\": neither the hair's roots nor the head's mesh have texture coordinates (UVs), \
+             which a map needs: add them in the file, or use near, groups or attribute"
+        ),
+        "{said}"
+    );
+}
+
+/// Grown hair has the coordinates of its head, and another map is another motion.
+#[test]
+fn grown_hair_finds_its_place_on_a_map() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[motion]\nform = \"free\"\n[hair]\nstrands = 400\n[[free.regions]]\nmap = \"map.png\"\nwind = 0.5\n[[force]]\n\
+                through = 3\nvector = [-40, 0, 0]";
+    let built = |map: &image::GrayImage| {
+        map.save(folder.path().join("map.png")).unwrap();
+        Scene::parse(text, &folder.path().join("s.toml"), &[]).unwrap().build(Shown::All).unwrap()
+    };
+    let first = built(&half_white());
+    let found = weights(&first);
+    let uvs = first.groom.hair.attributes.root_uv.as_ref().unwrap();
+    for (weight, uv) in found.iter().zip(uvs) {
+        // But for the border of a pixel.
+        if (uv[0] - 0.5).abs() > 1.0 / 64.0 && (uv[0] - uv[0].round()).abs() > 1.0 / 64.0 {
+            assert_eq!(*weight, f64::from(u8::from(uv[0].rem_euclid(1.0) > 0.5)), "{uv:?}");
+        }
+    }
+    assert!(found.contains(&0.0) && found.contains(&1.0));
+    let mut other = half_white();
+    other.put_pixel(60, 3, image::Luma([0]));
+    assert_ne!(first.identity().unwrap(), built(&other).identity().unwrap());
 }

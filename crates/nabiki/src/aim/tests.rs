@@ -1,4 +1,5 @@
 use super::*;
+use crate::strands::Strands;
 
 fn line(root: Vec3, way: Vec3, points: usize) -> Vec<Vec3> {
     (0..points).map(|i| root + i as f32 * way).collect()

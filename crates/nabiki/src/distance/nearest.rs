@@ -32,6 +32,28 @@ impl Nearest {
     }
 }
 
+/// A mesh that finds its point nearest to a place.
+#[derive(Debug)]
+pub struct Surface {
+    nearest: Nearest,
+    corners: Vec<[Vec3; 3]>,
+}
+
+impl Surface {
+    /// That of a mesh; `None` if it has no triangle.
+    pub fn new(mesh: &Mesh) -> Option<Self> {
+        let corners = mesh.triangles.iter().map(|triangle| triangle.map(|v| mesh.positions[v as usize])).collect();
+        let nearest = || Nearest::new(&mesh.positions, &mesh.triangles);
+        (!mesh.triangles.is_empty()).then(|| Self { nearest: nearest(), corners })
+    }
+
+    /// The triangle nearest to `p`, and the weights of its corners at the point nearest to `p`.
+    pub fn nearest(&self, p: Vec3) -> (usize, Vec3) {
+        let triangle = self.nearest.triangle(p);
+        (triangle, weights(self.corners[triangle], p))
+    }
+}
+
 fn bits(corners: [Vec3; 3]) -> [[u32; 3]; 3] {
     corners.map(|corner| corner.to_array().map(f32::to_bits))
 }

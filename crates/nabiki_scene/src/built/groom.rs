@@ -14,6 +14,7 @@ use nabiki::region::Members;
 use nabiki::{Hair, SettingError, Strands};
 use nabiki_io::cache::Shard;
 use nabiki_io::identity::StrandSum;
+use nabiki_io::painted::PaintedMap;
 
 use super::Shown;
 use super::dynamics::first_wanted;
@@ -106,10 +107,11 @@ impl GroomInputs {
         model: &Arc<Model>,
         polar_axis: Vec3,
         wanted: Wanted,
-        known: impl Iterator<Item = &'a Arc<Groom>>,
+        known: impl Iterator<Item = &'a Arc<Groom>> + Clone,
         at: At<'_>,
     ) -> Result<Self> {
         let first = first_wanted(scene);
+        let selectors = Selectors::of(scene, known.clone().map(|known| &known.inputs.selectors), at)?;
         let source = match &scene.hair.source {
             HairSource::Imported(settings) => Source::Imported(settings.clone()),
             HairSource::Grown(settings) => {
@@ -122,7 +124,7 @@ impl GroomInputs {
         };
         let straighten = scene.motion.straighten;
         let straight = (straighten != 0.0).then_some((straighten, polar_axis));
-        Ok(Self { model: model.clone(), source, straight, first, wanted, selectors: Selectors::of(scene) })
+        Ok(Self { model: model.clone(), source, straight, first, wanted, selectors })
     }
 }
 
@@ -153,6 +155,11 @@ impl Stage for Groom {
 }
 
 impl Groom {
+    /// The painted maps of its regions, in the order of these.
+    pub(super) fn maps(&self) -> impl Iterator<Item = &PaintedMap> {
+        self.inputs.selectors.maps()
+    }
+
     /// Its roots; `None` for hair from a file.
     pub(super) fn roots(&self) -> Option<&Arc<Roots>> {
         match &self.inputs.source {

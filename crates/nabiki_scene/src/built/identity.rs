@@ -1,6 +1,6 @@
 //! The identity of a scene, for motion caches.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use nabiki::Pose;
@@ -102,13 +102,19 @@ impl BuiltScene {
     fn add_free(&self, digest: &mut Digest, free: &FreeMotion) -> Result<()> {
         // What a region is called changes nothing.
         let mut form = free.form.clone();
-        form.regions.iter_mut().for_each(|region| region.name.clear());
+        form.regions.iter_mut().for_each(|region| {
+            region.name.clear();
+            // What a map selects is added below.
+            region.map = region.map.as_ref().map(|_| PathBuf::new());
+        });
         digest.settings("free", &form)?;
         if self.groom.imported.is_some() {
-            // Of grown hair, these follow from its settings, and only some are known.
             for members in free.members.iter().flatten() {
                 add_numbers(digest, "members", &members.numbers().collect::<Vec<_>>());
             }
+        } else {
+            // Groups of grown hair follow from its settings, and only some members are known.
+            self.groom.maps().for_each(|map| digest.bytes("map", &map.bytes()));
         }
         // Accelerations are per second.
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;

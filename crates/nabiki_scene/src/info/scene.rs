@@ -272,6 +272,7 @@ fn region_in_words(region: &Region) -> String {
         strands.push(format!("groups {}", region.groups.join(" and ")));
     }
     strands.extend(region.attribute.as_ref().map(|attribute| format!("attribute {attribute}")));
+    strands.extend(region.map.as_ref().map(|map| format!("map {}", map.display())));
     if let Some(near) = region.near {
         let [inner, outer] = [region.within, region.within + region.soft].map(Short);
         let place = match region.to {
@@ -280,15 +281,20 @@ fn region_in_words(region: &Region) -> String {
         };
         strands.push(format!("roots within {inner} to {outer} cm of {place}"));
     }
+    let wind = Profile::Even(region.wind);
     let factors = [
-        ("stiffness", region.stiffness),
-        ("hold", region.hold),
-        ("settle", region.settle),
-        ("wind", region.wind),
-        ("drag", region.drag),
+        ("stiffness", &region.stiffness),
+        ("hold", &region.hold),
+        ("settle", &region.settle),
+        ("wind", &wind),
+        ("drag", &region.drag),
     ];
-    let told: Vec<String> = (factors.into_iter().filter(|&(_, factor)| factor != 1.0))
-        .map(|(key, factor)| format!("{key} x {}", Short(factor)))
+    let along = |factor: &Profile| {
+        let values: Vec<String> = factor.values().iter().map(|&value| Short(value).to_string()).collect();
+        values.join(" to ")
+    };
+    let told: Vec<String> = (factors.into_iter().filter(|&(_, factor)| *factor != Profile::Even(1.0)))
+        .map(|(key, factor)| format!("{key} x {}", along(factor)))
         .collect();
     let told = if told.is_empty() { "no change".to_owned() } else { told.join(", ") };
     format!("{name}{}: {told}", strands.join(", "))

@@ -79,6 +79,7 @@ impl Scene {
             mend(&mut head.mesh);
         }
         self.bodies.iter_mut().for_each(|body| mend(&mut body.mesh));
+        self.free.regions.iter_mut().filter_map(|region| region.map.as_mut()).for_each(mend);
         self.aims.iter_mut().for_each(|aim| mend(&mut aim.file));
         let motions = self.bodies.iter_mut().filter_map(|body| body.motion.as_mut());
         for motion in motions.chain(&mut self.head.motion) {

@@ -45,7 +45,21 @@ pub(super) const GROUPS: &[Group] = &[
         "Regions",
         "free.regions",
         "Hair that moves differently from the rest, such as a fringe that stays.",
-        &["name", "groups", "attribute", "near", "to", "within", "soft", "stiffness", "hold", "settle", "wind", "drag"],
+        &[
+            "name",
+            "groups",
+            "attribute",
+            "map",
+            "near",
+            "to",
+            "within",
+            "soft",
+            "stiffness",
+            "hold",
+            "settle",
+            "wind",
+            "drag",
+        ],
     )
     .shaped(Shape::List(
         "near = [5.5, 8.6, -5.0]\nto = [5.5, 8.6, 5.0]\nwithin = 3.0\nsoft = 1.5\nhold = 4.0\nwind = 0.1",

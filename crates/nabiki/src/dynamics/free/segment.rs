@@ -8,6 +8,8 @@ use crate::dynamics::Dynamics;
 use crate::dynamics::gain::{SegmentShape, push, segment_shapes};
 use crate::error::SettingError;
 use crate::free_form::{FreeForm, FreeMotion};
+use crate::profile::Profile;
+use crate::region::Region;
 
 /// What moves one segment, and the node at its end. Directions are in head space; moments and forces are for hair of
 /// weight 1 per cm.
@@ -90,7 +92,7 @@ pub(in crate::dynamics) fn free_segments(
     let points: Vec<DVec3> = strand.iter().map(|p| p.as_dvec3()).collect();
     let length: f64 = shapes[held..].iter().map(|shape| shape.length).sum();
     let push = push(dynamics, length);
-    let own = free.own(strand);
+    let (own, regions) = (free.own(strand), free.regions_of(strand[0]));
     let rest_weight = push * weight::on_head(&free.rest_pose, f64::from(form.gravity));
     let still = |i: usize| FreeSegment {
         shape: shapes[i],
@@ -117,18 +119,22 @@ pub(in crate::dynamics) fn free_segments(
         let rest = still(i).rest;
         let (up, supports) = weight::support(rest, beyond * shape.length * rest_weight);
         let middle = length * shape.middle;
-        let held = own.hold * form.hold.at(shape.middle) + weight::held_up(&free.rest_pose, form.gravity.into(), rest);
+        let at_middle = |first, factor: fn(&Region) -> &Profile| regions.times(first, factor, shape.middle);
+        let stiffness = regions.times(own.stiffness, |region| &region.stiffness, shape.begin);
+        let settle = at_middle(1.0, |region| &region.settle) * f64::from(dynamics.motion.slow);
+        let held = at_middle(1.0, |region| &region.hold) * form.hold.at(shape.middle)
+            + weight::held_up(&free.rest_pose, form.gravity.into(), rest);
         segments[i] = FreeSegment {
             push,
             lightness: 1.0 / mass,
-            bending: joints::bending(dynamics, push, length, own.stiffness * form.stiffness.at(shape.begin))
+            bending: joints::bending(dynamics, push, length, stiffness * form.stiffness.at(shape.begin))
                 / (0.5 * (before + shape.length)),
             up,
             supports,
             hold: hold::moment_per_radian(push, held, length - middle, shape.length),
             lever: hold::moment_per_radian(push, 1.0, length - middle, shape.length),
-            air: own.air * form.air(shape.middle) / (own.settle * f64::from(dynamics.motion.slow)),
-            drag: own.drag * form.drag.at(shape.middle),
+            air: own.air * form.air(shape.middle) / settle,
+            drag: at_middle(1.0, |region| &region.drag) * form.drag.at(shape.middle),
             ..segments[i]
         };
     }

@@ -106,7 +106,7 @@ pub(super) fn grow(
     let ids = run.map(|number| number as u32).collect();
     let shard = inputs.wanted.shard.map(|shard| ShardOf { shard, strands: count, groom: StrandSum::default() });
     let names = Names { of_others: &Region::ALL.map(Region::word), ..Names::default() };
-    let members = inputs.selectors.members(&[&hair, &first], &names);
+    let members = inputs.selectors.members(&[&hair, &first], &inputs.model.head, &names);
     let (members, first) = (members.map_err(|refused| at.refusal(refused))?, first.strands);
     Ok(Groom { inputs: inputs.clone(), hair, of_scene: *strands, shard, imported: None, ids, first, members })
 }

@@ -74,7 +74,7 @@ pub(super) fn import(inputs: &GroomInputs, settings: &ImportedHair, at: At<'_>) 
     };
     let names = Names { of_all, ..Names::default() };
     // Of all hair, so that any part of it has the same.
-    let members = inputs.selectors.members(&[&hair], &names).map_err(|refused| at.refusal(refused))?;
+    let members = inputs.selectors.members(&[&hair], &model.head, &names).map_err(|refused| at.refusal(refused))?;
     let hair = match settings.strands {
         Some(count) if count > hair.strands.len() => {
             let (file, there) = (settings.file.display(), hair.strands.len());

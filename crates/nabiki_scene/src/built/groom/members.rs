@@ -1,13 +1,23 @@
-//! The strands of regions that go by groups or an attribute of the hair.
+//! The strands of regions that go by groups or an attribute of the hair, or by a painted map.
 
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
+use nabiki::distance::Surface;
 use nabiki::hair::{Other, Per, Values};
 use nabiki::region::{Members, Region};
-use nabiki::{Hair, SettingError};
+use nabiki::{Hair, Head, SettingError};
+use nabiki_io::painted::{self, PaintedMap};
 
+use crate::built::stage::At;
+use crate::error::Result;
 use crate::scene::{FormChoice, Scene};
+
+/// What a setting may refuse.
+type Refusable<T> = std::result::Result<T, SettingError>;
 
 /// What selects the strands of each region of a scene; `None` for regions that go by their place alone.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +27,17 @@ pub(super) struct Selectors(Vec<Option<Selector>>);
 struct Selector {
     groups: Vec<String>,
     attribute: Option<String>,
+    map: Option<Arc<Map>>,
+}
+
+/// A painted map.
+#[derive(Debug, PartialEq)]
+struct Map {
+    /// As the scene names it.
+    named: PathBuf,
+    file: PathBuf,
+    stamp: Option<(u64, SystemTime)>,
+    picture: PaintedMap,
 }
 
 /// Names of groups that the hair itself does not have.
@@ -29,19 +50,38 @@ pub(super) struct Names<'a> {
 }
 
 impl Selectors {
-    pub fn of(scene: &Scene) -> Self {
+    /// Those of a scene; maps that a known scene has read are not read again.
+    ///
+    /// # Errors
+    /// A map that cannot be read.
+    pub fn of<'a>(scene: &Scene, known: impl Iterator<Item = &'a Self> + Clone, at: At<'_>) -> Result<Self> {
         let regions = if scene.form == FormChoice::Free { scene.free.regions.as_slice() } else { &[] };
-        let of = |region: &Region| Selector { groups: region.groups.clone(), attribute: region.attribute.clone() };
-        Self(regions.iter().map(|region| region.has_members().then(|| of(region))).collect())
+        let of = |(i, region): (usize, &Region)| {
+            if !region.has_members() {
+                return Ok(None);
+            }
+            let map = region.map.as_ref().map(|file| {
+                let known = known.clone().flat_map(|of| &of.0).flatten().filter_map(|selector| selector.map.as_ref());
+                Map::of(scene, &format!("free.regions[{i}].map"), file, known, at)
+            });
+            let (groups, attribute) = (region.groups.clone(), region.attribute.clone());
+            Ok(Some(Selector { groups, attribute, map: map.transpose()? }))
+        };
+        regions.iter().enumerate().map(of).collect::<Result<_>>().map(Self)
     }
 
-    /// The members of each region among this hair.
-    pub fn members(&self, hair: &[&Hair], names: &Names<'_>) -> Result<Vec<Option<Members>>, SettingError> {
+    /// The painted maps.
+    pub fn maps(&self) -> impl Iterator<Item = &PaintedMap> {
+        self.0.iter().flatten().filter_map(|selector| Some(&selector.map.as_ref()?.picture))
+    }
+
+    /// The members of each region among this hair, which stands on this head.
+    pub fn members(&self, hair: &[&Hair], head: &Head, names: &Names<'_>) -> Refusable<Vec<Option<Members>>> {
         let of = |(i, selector): (usize, &Option<Selector>)| {
             let Some(selector) = selector else { return Ok(None) };
             let mut members = Vec::new();
             for hair in hair {
-                members.extend(selector.members(&format!("free.regions[{i}]"), hair, names)?);
+                members.extend(selector.members(&format!("free.regions[{i}]"), hair, head, names)?);
             }
             Ok(Some(Members::new(members)))
         };
@@ -51,7 +91,7 @@ impl Selectors {
 
 impl Selector {
     /// Root and weight of each strand that belongs to the region.
-    fn members(&self, key: &str, hair: &Hair, names: &Names<'_>) -> Result<Vec<(Vec3, f32)>, SettingError> {
+    fn members(&self, key: &str, hair: &Hair, head: &Head, names: &Names<'_>) -> Refusable<Vec<(Vec3, f32)>> {
         let mut weights = vec![1.0; hair.strands.len()];
         if let Some(chosen) = self.numbers(key, hair, names)? {
             let groups = hair.attributes.group.as_deref().unwrap_or_default();
@@ -61,12 +101,16 @@ impl Selector {
             let values = root_values(&format!("{key}.attribute"), hair, name)?;
             weights.iter_mut().zip(values).for_each(|(weight, value)| *weight *= value as f32);
         }
+        if let Some(map) = &self.map {
+            let uvs = map.root_uvs(&format!("{key}.map"), hair, head)?;
+            weights.iter_mut().zip(uvs).for_each(|(weight, uv)| *weight *= map.picture.at(uv));
+        }
         let roots = hair.strands.iter().map(|strand| strand[0]);
         Ok(roots.zip(weights).filter(|&(_, weight)| weight > 0.0).collect())
     }
 
     /// The numbers of the groups; `None` for all hair.
-    fn numbers(&self, key: &str, hair: &Hair, names: &Names<'_>) -> Result<Option<BTreeSet<i32>>, SettingError> {
+    fn numbers(&self, key: &str, hair: &Hair, names: &Names<'_>) -> Refusable<Option<BTreeSet<i32>>> {
         if self.groups.is_empty() {
             return Ok(None);
         }
@@ -97,8 +141,44 @@ impl Selector {
     }
 }
 
+impl Map {
+    fn of<'a>(
+        scene: &Scene,
+        key: &str,
+        named: &Path,
+        mut known: impl Iterator<Item = &'a Arc<Self>>,
+        at: At<'_>,
+    ) -> Result<Arc<Self>> {
+        let file = at.there(scene.file(), key, named)?;
+        let stamp = painted::stamp(&file);
+        if let Some(known) = known.find(|known| known.file == file && known.stamp == stamp && stamp.is_some()) {
+            return Ok(known.clone());
+        }
+        let picture = PaintedMap::read(&file)?;
+        Ok(Arc::new(Self { named: named.to_owned(), file, stamp, picture }))
+    }
+
+    /// Where on the map each strand grows: at its own texture coordinates, or else at those of the skin there.
+    fn root_uvs(&self, key: &str, hair: &Hair, head: &Head) -> Refusable<Vec<Vec2>> {
+        if let Some(uvs) = &hair.attributes.root_uv {
+            return Ok(uvs.iter().map(|&uv| uv.into()).collect());
+        }
+        let (Some(corners), Some(skin)) = (&head.mesh.corner_uvs, Surface::new(&head.mesh)) else {
+            let remedy = "neither the hair's roots nor the head's mesh have texture coordinates (UVs), which a map needs: \
+                          add them in the file, or use near, groups or attribute";
+            return Err(SettingError::new(key, format!("\"{}\"", self.named.display()), remedy));
+        };
+        let of = |strand: &[Vec3]| {
+            let (triangle, weights) = skin.nearest(strand[0]);
+            let [a, b, c] = corners[triangle];
+            a * weights.x + b * weights.y + c * weights.z
+        };
+        Ok(hair.strands.iter().map(of).collect())
+    }
+}
+
 /// The number of an attribute at each root.
-fn root_values(key: &str, hair: &Hair, name: &str) -> Result<Vec<f64>, SettingError> {
+fn root_values(key: &str, hair: &Hair, name: &str) -> Refusable<Vec<f64>> {
     let refused = |why: String| Err(SettingError::new(key, format!("{name:?}"), why));
     let of = &hair.attributes;
     let Some(found) = of.other.iter().find(|other| other.name == name) else {
