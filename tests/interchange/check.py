@@ -5,7 +5,7 @@
     python3 tests/interchange/check.py --bpy PYTHON     the Blender part with another Python, one that has bpy
     python3 tests/interchange/check.py --environment    the environments, and nothing else
 
-usd-core, alembic3d and numpy come from PyPI into target/interchange. Blender comes along as the package bpy where there
+usd-core, alembic3d and numpy come from PyPI into target/interchange, and three.js from npm where that is. Blender comes along as the package bpy where there
 is a Python 3.11, which it wants (a gigabyte once installed, and some shared libraries of a desktop); where it cannot be
 had, that part says SKIPPED and why.
 """
@@ -244,6 +244,47 @@ def skins(nabiki, python):
     run(python, HERE / "skins.py", "compare", folder)
 
 
+def game(nabiki, python, bpy):
+    """Point caches and chains of joints, in Blender and in three.js."""
+    folder = WORK / "game"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    simulate = [nabiki, "simulate", ROOT / "scenes" / "head_turn.toml", "--strands", "100", "--frames", "60"]
+    told = []
+    for name, options in [("few", ["64x8"]), ("all", ["100x12"]), ("lines", ["64x8", "--export-cards", "0"])]:
+        file = folder / f"{name}.glb"
+        said = run(*simulate, "-o", file, "--export-chains", *options, capture_output=True, text=True).stdout
+        [line] = [line for line in said.splitlines() if "the skinned hair is" in line]
+        told.append(f"{file.name} {line.split('the skinned hair is ')[1].split()[0]}")
+    (folder / "told.txt").write_text("\n".join(told))
+    caches = ["--export", folder / "moving.pc2", "--export", folder / "moving.mdd"]
+    run(*simulate, "-o", folder / "moving.usdc", *caches, "--quiet")
+    run(python, HERE / "game.py", "points", folder)
+    if bpy:
+        run(bpy, HERE / "game.py", "blender", folder)
+    else:
+        print("SKIPPED: point caches and chains in Blender, which is not here")
+    if not three(folder):
+        print("SKIPPED: chains in three.js: it wants node and npm")
+        return
+    run(python, HERE / "game.py", "three", folder)
+
+
+def three(folder):
+    """Plays the chains with three.js, from npm; whether that is there."""
+    where = WORK / "three"
+    if not (shutil.which("node") and shutil.which("npm")):
+        return False
+    where.mkdir(exist_ok=True)
+    if not (where / "node_modules" / "three").is_dir():
+        install = ["npm", "install", "--silent", "--no-audit", "--no-fund", "--prefix", where, "three@0.181.0"]
+        if subprocess.run(list(map(str, install)), cwd=where).returncode != 0:
+            return False
+    script = shutil.copy(HERE / "three.mjs", where)
+    run("node", script, "61", "120", folder / "few.glb", folder / "all.glb")
+    return True
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bpy", type=Path, help="a Python that has the package bpy")
@@ -277,6 +318,7 @@ def main():
     run(python, HERE / "alembic.py", samples)
 
     bpy, why = blender(arguments.bpy or os.environ.get("NABIKI_BPY_PYTHON"))
+    game(nabiki, python, bpy)
     if bpy:
         run(bpy, HERE / "blender.py", samples, nabiki)
     else:

@@ -141,8 +141,9 @@ impl FrameSink for HairArchive<'_> {
         self.transform.put(&mut self.to, bytemuck::cast_slice(&parent))
     }
 
-    fn finish(self: Box<Self>) -> io::Result<()> {
-        self.complete()
+    fn finish(self: Box<Self>) -> io::Result<Option<String>> {
+        self.complete()?;
+        Ok(None)
     }
 }
 

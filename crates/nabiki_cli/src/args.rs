@@ -7,6 +7,7 @@ use clap::{Arg, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueE
 use nabiki::dynamics::Motion;
 use nabiki_io::Unit;
 use nabiki_io::cache::Shard;
+use nabiki_io::moving::ChainOptions;
 use nabiki_scene::exports::ExportOptions;
 use nabiki_scene::farm::Engine;
 use nabiki_scene::tasks::{Pictures, Twin};
@@ -175,7 +176,8 @@ impl Cli {
 /// Moving hair for other tools.
 #[derive(Args)]
 pub struct ExportArgs {
-    /// Write the moving hair for other tools: .usdc, .usd, .usda (text) or .abc; repeatable
+    /// Write the moving hair for other tools; repeatable: .usdc, .usd, .usda (text) or .abc; .glb, chains of joints with skinned
+    /// hair for games; .pc2 or .mdd, point caches
     #[arg(long, value_name = "FILE")]
     pub export: Vec<PathBuf>,
 
@@ -188,11 +190,34 @@ pub struct ExportArgs {
     /// a mesh instead of a groom
     #[arg(long)]
     pub export_head: bool,
+
+    #[command(flatten)]
+    pub chains: ChainArgs,
+}
+
+/// Chains of joints in a .glb.
+#[derive(Args)]
+pub struct ChainArgs {
+    /// In a .glb: number of chains of joints, and of joints in each
+    #[arg(long, value_name = "CHAINSxJOINTS", default_value = "64x8", value_parser = chains)]
+    pub export_chains: (u32, u32),
+
+    /// In a .glb: width of the ribbon that each strand is drawn as; 0 draws lines, which few engines bind to joints
+    #[arg(long, value_name = "CM", default_value_t = 0.4)]
+    pub export_cards: f32,
+}
+
+impl ChainArgs {
+    pub fn options(&self) -> ChainOptions {
+        let (chains, joints) = self.export_chains;
+        ChainOptions { chains, joints, cards: self.export_cards }
+    }
 }
 
 impl ExportArgs {
     pub fn options(&self) -> ExportOptions {
-        ExportOptions { files: self.export.clone(), layer: self.export_layer.clone(), head: self.export_head }
+        let (files, layer) = (self.export.clone(), self.export_layer.clone());
+        ExportOptions { files, layer, head: self.export_head, chains: self.chains.options() }
     }
 }
 
@@ -241,7 +266,7 @@ pub struct Simulate {
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usd, .usda, .abc)
+    /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usd, .usda, .abc, .glb, .pc2, .mdd)
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 
@@ -438,7 +463,8 @@ pub struct Convert {
     /// A hair file (.hair, .tfx, .obj, .usd, .usda, .usdc, .abc) or a motion cache (.nabiki)
     pub input: PathBuf,
 
-    /// The file to write: .hair, .tfx, .usd, .usda, .usdc or .abc. A full motion cache needs one of the last four. Imported hair in a
+    /// The file to write: .hair, .tfx, .usd, .usda, .usdc or .abc; or, for all frames of a motion, .glb, .pc2 or .mdd. A full motion
+    /// cache needs one that holds motion, so neither of the first two. Imported hair in a
     /// cache is written in the unit, axes and place of its original file
     pub output: PathBuf,
 
@@ -468,6 +494,9 @@ pub struct Convert {
     /// Alembic archive or cache; see output.first_frame)
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub first_frame: Option<i32>,
+
+    #[command(flatten)]
+    pub chains: ChainArgs,
 }
 
 #[derive(Args)]
@@ -495,6 +524,12 @@ fn prim_path(text: &str) -> Result<String, String> {
     Err("give the path of the groom's curves in its USD stage, such as /character/hair; nabiki info on the groom's file \
          lists them"
         .into())
+}
+
+/// `64x8`: chains, and joints in each.
+fn chains(text: &str) -> Result<(u32, u32), String> {
+    let both = text.split_once('x').and_then(|(chains, joints)| Some((chains.parse().ok()?, joints.parse().ok()?)));
+    both.ok_or_else(|| "give the number of chains and of joints in each, such as 64x8".to_owned())
 }
 
 fn positive<N: FromStr + From<bool> + PartialOrd>(text: &str) -> Result<N, String> {

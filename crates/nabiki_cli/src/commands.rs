@@ -136,6 +136,7 @@ pub fn convert(args: &Convert, terminal: &mut Terminal) -> Result<()> {
         z_up: args.z_up,
         layer: args.export_layer.clone(),
         first_frame: args.first_frame,
+        chains: args.chains.options(),
     };
     tasks::convert(&options, terminal)
 }

@@ -29,6 +29,8 @@ pub struct Export<'a> {
     pub frame_rate: f64,
     /// Number of the first frame.
     pub first_frame: i32,
+    /// Number of frames that will be written, for formats that begin with it.
+    pub frames: u32,
     /// Transform from head space to the space of the file's hair: the inverse of the import's transform, or the
     /// identity.
     pub file_from_head: DAffine3,
@@ -41,6 +43,9 @@ pub struct Export<'a> {
     pub meters_per_unit: f64,
     /// Whether +z is up in the file; otherwise +y. This only declares the axis; `file_from_head` does the rotation.
     pub z_up: bool,
+    /// Whether the head faces +x in the file, as it does where the hair comes from no file. Formats in which all faces
+    /// look along another axis turn it.
+    pub faces_x: bool,
 }
 
 impl<'a> Export<'a> {
@@ -55,11 +60,13 @@ impl<'a> Export<'a> {
             velocities: false,
             frame_rate,
             first_frame: 0,
+            frames: 1,
             file_from_head: DAffine3::IDENTITY,
             course: Course::LINEAR,
             bound: false,
             meters_per_unit: 0.01,
             z_up: false,
+            faces_x: false,
         }
     }
 
@@ -138,6 +145,21 @@ impl<'a> Export<'a> {
         }
     }
 
+    /// The points of `strands` in the world of the file, with the head where it is.
+    ///
+    /// # Errors
+    /// As [`points`](Self::points).
+    pub fn world_points(
+        &self,
+        strands: &Strands,
+        world_from_head: &DAffine3,
+    ) -> io::Result<impl Iterator<Item = Vec3>> {
+        let file_from_head = self.file_from_head * *world_from_head;
+        let mut room = Vec::new();
+        self.points(strands, &mut room)?;
+        Ok(strands.points().iter().map(move |&p| point(&file_from_head, p)))
+    }
+
     /// The points of the head in the file's space, and whether that space is mirrored.
     pub fn skin(&self, mesh: &Mesh) -> (Vec<Vec3>, bool) {
         let points = mesh.positions.iter().map(|&p| point(&self.file_from_head, p)).collect();
@@ -199,9 +221,9 @@ pub trait FrameSink: Send {
     /// What the disk says, strands that do not match the groom, points that are not finite.
     fn frame(&mut self, strands: &Strands, world_from_head: &DAffine3) -> io::Result<()>;
 
-    /// Completes the file and gives it its name.
+    /// Completes the file and gives it its name. Returns what it holds, in words, where that is worth telling.
     ///
     /// # Errors
     /// What the disk says.
-    fn finish(self: Box<Self>) -> io::Result<()>;
+    fn finish(self: Box<Self>) -> io::Result<Option<String>>;
 }

@@ -15,7 +15,8 @@ use nabiki::Pose;
 use nabiki::{Hair, Strands};
 use nabiki_alembic::ArchiveReader;
 use nabiki_exchange::{Export, FrameSink, GroomReader};
-use nabiki_io::{SceneId, cache, exchange, hair};
+use nabiki_io::moving::{self, ChainOptions};
+use nabiki_io::{SceneId, cache, hair};
 use nabiki_usd::StageReader;
 use peak_alloc::PeakAlloc;
 
@@ -81,7 +82,8 @@ fn write_moving(path: &Path, frames: &[Strands]) {
         writer.finish().expect("finished");
         return;
     }
-    let mut sink: Box<dyn FrameSink> = exchange::sink(path, Export::new(&hair, 24.0), None).expect("created");
+    let mut sink: Box<dyn FrameSink> =
+        moving::sink(path, Export::new(&hair, 24.0), None, ChainOptions::default()).expect("created");
     frames.iter().for_each(|strands| sink.frame(strands, &DAffine3::IDENTITY).expect("written"));
     sink.finish().expect("finished");
 }

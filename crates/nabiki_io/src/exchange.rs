@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use glam::{DAffine3, DVec3, Vec3};
 use nabiki::{Hair, Mesh, Strands};
-use nabiki_alembic::{ArchiveReader, HairArchive};
-use nabiki_exchange::{Contents, Export, FrameSink, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window};
-use nabiki_usd::{HairStage, LayerKind, StageReader};
+use nabiki_alembic::ArchiveReader;
+use nabiki_exchange::{Contents, Export, GroomReader, InPlace, Placed, Prim, PrimKind, Problem, Window};
+use nabiki_usd::StageReader;
 
 use crate::axis::Axis;
 use crate::error::{Error, Result};
@@ -15,6 +15,7 @@ use crate::input;
 use crate::kind::extension;
 use crate::mesh::parts;
 use crate::motion::track::{Sample, Track};
+use crate::moving::{self, ChainOptions};
 use crate::placement::Placement;
 use crate::unit::Unit;
 
@@ -325,6 +326,7 @@ pub fn export<'a>(hair: &'a Hair, frame_rate: f64, placement: Option<&Placement>
     let mut export = Export::new(hair, frame_rate);
     export.rest = true;
     export.velocities = true;
+    export.faces_x = placement.is_none();
     if let Some(placement) = placement {
         export.file_from_head = placement.file_from_head_in_doubles();
         export.meters_per_unit = placement.unit.metres();
@@ -384,24 +386,6 @@ pub fn least_bytes(path: &Path, export: &Export<'_>, frames: u64, layer: bool) -
     frames.saturating_mul(point + velocity).saturating_add(rest)
 }
 
-/// Starts a file for moving hair, frame by frame: .usda, .usdc or .abc. `layer` is the prim path of a groom, for a
-/// layer with only samples.
-///
-/// # Errors
-/// Another ending, a layer for Alembic (which has none), or an error of the disk.
-pub fn sink<'a>(path: &Path, export: Export<'a>, layer: Option<&str>) -> Result<Box<dyn FrameSink + 'a>> {
-    let named = |e: std::io::Error| Error::from(e).in_file(path);
-    match (is_usd(path), is_alembic(path), layer) {
-        (true, _, None) => Ok(Box::new(HairStage::create(path, export, LayerKind::Stage).map_err(named)?)),
-        (true, _, Some(prim)) => {
-            Ok(Box::new(HairStage::create(path, export, LayerKind::Layer(prim.to_owned())).map_err(named)?))
-        }
-        (_, true, None) => Ok(Box::new(HairArchive::create(path, export).map_err(named)?)),
-        (_, true, Some(_)) => Err(Error::new("Alembic has no layers: write .usd, .usda or .usdc").in_file(path)),
-        _ => Err(Error::new("moving hair is written as .usd, .usda, .usdc or .abc").in_file(path)),
-    }
-}
-
 /// Export settings for hair that does not move, in its unit and axes.
 pub fn still(hair: &Hair, declared: DeclaredSpace) -> Export<'_> {
     let mut export = Export::new(hair, 24.0);
@@ -424,10 +408,11 @@ pub fn write(path: &Path, hair: &Hair, declared: DeclaredSpace) -> Result<()> {
 /// Errors of the disk.
 pub fn write_still(path: &Path, export: Export<'_>, world_from_head: &DAffine3) -> Result<()> {
     let hair = export.hair;
-    let mut sink = sink(path, export, None)?;
+    let mut sink = moving::sink(path, export, None, ChainOptions::default())?;
     let named = |e: std::io::Error| Error::from(e).in_file(path);
     sink.frame(&hair.strands, world_from_head).map_err(named)?;
-    sink.finish().map_err(named)
+    sink.finish().map_err(named)?;
+    Ok(())
 }
 
 /// Phrases about the data of `hair` that the layer or archive `path` cannot store.

@@ -8,6 +8,7 @@ use nabiki_exchange::{Course, Export, GroomReader};
 use nabiki_io::exchange::{self, DeclaredSpace, MovingHair};
 use nabiki_io::info::ExchangeInfo;
 use nabiki_io::motion::{self, Axis, MotionSource};
+use nabiki_io::moving::{self, ChainOptions};
 use nabiki_io::placement::{Placement, Unit};
 use nabiki_io::{CurvePrim, GroomFile};
 use nabiki_io::{hair, mesh};
@@ -33,7 +34,7 @@ fn write(folder: &Path, name: &str) -> PathBuf {
     let mut export = Export::new(&hair, 20.0);
     export.head = Some(&skin);
     let path = folder.join(name);
-    let mut sink = exchange::sink(&path, export, None).unwrap();
+    let mut sink = moving::sink(&path, export, None, ChainOptions::default()).unwrap();
     for frame in 0..FRAMES {
         sink.frame(&hair.strands, &pose(frame)).unwrap();
     }
@@ -134,7 +135,7 @@ fn moving_hair_goes_from_format_to_format_with_all_its_frames() {
     let first = folder.path().join("first.usdc");
     let mut export = Export::new(&hair, 30.0);
     export.first_frame = 5;
-    let mut sink = exchange::sink(&first, export, None).unwrap();
+    let mut sink = moving::sink(&first, export, None, ChainOptions::default()).unwrap();
     // A kilometre away a single is 0.008 cm from the next.
     let pose = |n: usize| DAffine3::from_translation(DVec3::new(0.0, 0.0, -123_456.789)) * pose(n);
     for n in 0..FRAMES {
@@ -147,7 +148,7 @@ fn moving_hair_goes_from_format_to_format_with_all_its_frames() {
         let mut moving = MovingHair::open(&from, None).unwrap();
         assert_eq!((moving.frames(), moving.frame_rate()), (FRAMES, 30.0), "{name}");
         let hair = moving.hair().clone();
-        let mut sink = exchange::sink(&to, moving.export(&hair), None).unwrap();
+        let mut sink = moving::sink(&to, moving.export(&hair), None, ChainOptions::default()).unwrap();
         for n in 0..FRAMES {
             let (found, world_from_hair) = moving.frame(n).unwrap();
             assert_eq!((found.points(), world_from_hair), (frame(n).points(), pose(n)), "{name}, frame {n}");
@@ -196,7 +197,7 @@ fn a_layer_over_cubic_curves_draws_them_from_the_roots_to_the_tips() {
         let mut export = Export::new(&read, 24.0);
         let curves = GroomFile::open(&groom).unwrap().curves(&groom).unwrap();
         exchange::under_groom(&mut export, curves.under_layer("/h").unwrap());
-        let mut sink = exchange::sink(&layer, export, Some("/h")).unwrap();
+        let mut sink = moving::sink(&layer, export, Some("/h"), ChainOptions::default()).unwrap();
         sink.frame(&read.strands, &DAffine3::IDENTITY).unwrap();
         sink.finish().unwrap();
         // As the stage has it on which the layer lies over the groom.
@@ -248,7 +249,7 @@ fn what_stands_in_a_file_is_listed_with_what_moves() {
 fn a_layer_of_alembic_and_an_unknown_ending_are_refused_by_name() {
     let hair = Hair::from(strands());
     let refused = |name: &str, layer: Option<&str>| {
-        let result = exchange::sink(Path::new(name), Export::new(&hair, 24.0), layer);
+        let result = moving::sink(Path::new(name), Export::new(&hair, 24.0), layer, ChainOptions::default());
         result.err().unwrap().to_string()
     };
     assert_eq!(refused("hair.abc", Some("/a")), "hair.abc: Alembic has no layers: write .usd, .usda or .usdc");
@@ -307,7 +308,7 @@ fn a_copy_of_moving_hair_is_told_the_unit_axes_and_frames_of_its_source() {
     std::fs::write(&file, SHOT).unwrap();
     let mut moving = MovingHair::open(&file, None).unwrap();
     let hair = moving.hair().clone();
-    let mut sink = exchange::sink(&copy, moving.export(&hair), None).unwrap();
+    let mut sink = moving::sink(&copy, moving.export(&hair), None, ChainOptions::default()).unwrap();
     for frame in 0..moving.frames() {
         let (points, world_from_hair) = moving.frame(frame).unwrap();
         sink.frame(&points, &world_from_hair).unwrap();

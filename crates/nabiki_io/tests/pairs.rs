@@ -10,6 +10,7 @@ use glam::{Quat, Vec3};
 use nabiki::Hair;
 use nabiki::Pose;
 use nabiki::hair::{Attributes, Constants};
+use nabiki_io::moving::{self, ChainOptions};
 use nabiki_io::{SceneId, cache, exchange, hair};
 
 const FORMATS: [&str; 6] = ["hair", "tfx", "usda", "usdc", "abc", "nabiki"];
@@ -183,7 +184,7 @@ fn no_file_is_smaller_than_it_is_said_to_be_at_least() {
     let mut export = exchange::still(&groom, exchange::DeclaredSpace::default());
     (export.velocities, export.rest) = (true, true);
     let least = exchange::least_bytes(&path, &export, 5, false);
-    let mut sink = exchange::sink(&path, export, None).unwrap();
+    let mut sink = moving::sink(&path, export, None, ChainOptions::default()).unwrap();
     for _ in 0..5 {
         sink.frame(&groom.strands, &glam::DAffine3::IDENTITY).unwrap();
     }

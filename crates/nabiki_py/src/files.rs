@@ -42,7 +42,8 @@ pub fn convert(
     let unit = unit.as_ref().map(unit_of).transpose()?;
     let (frame, segments) = (frame.map(|FrameNumber(n)| n), segments.map(|Segments(count)| count));
     let first_frame = first_frame.map(|FirstFrame(n)| n);
-    let options = ConvertOptions { input, output, frame, segments, unit, z_up, layer, first_frame };
+    let options =
+        ConvertOptions { input, output, frame, segments, unit, z_up, layer, first_frame, ..ConvertOptions::default() };
     let ears = Ears::new(&progress, &report);
     watched(py, ears, &[], |watch| tasks::convert(&options, watch))
 }

@@ -6,6 +6,7 @@ use nabiki::{Hair, Pose, Strands};
 use nabiki_exchange::FrameSink;
 use nabiki_io::cache::Origin;
 use nabiki_io::exchange;
+use nabiki_io::moving::{self, ChainOptions};
 use nabiki_render::colour;
 
 use crate::built::BuiltScene;
@@ -17,13 +18,15 @@ use crate::watch::Watch;
 /// The files of moving hair that a task writes in addition to its other results.
 #[derive(Clone, Debug, Default)]
 pub struct ExportOptions {
-    /// .usd, .usda, .usdc or .abc files.
+    /// .usd, .usda, .usdc, .abc, .glb, .pc2 or .mdd files.
     pub files: Vec<PathBuf>,
     /// Prim path of a groom, for a layer with only samples over it. `None` writes complete stages.
     pub layer: Option<String>,
     /// Whether to write the head where it is usually left out: the built-in head, which is large and known to
     /// everybody, and any head in .abc files, which Unreal then imports as a mesh and not as a groom.
     pub head: bool,
+    /// How hair is turned into chains of joints, for .glb files.
+    pub chains: ChainOptions,
 }
 
 impl ExportOptions {
@@ -46,11 +49,12 @@ impl ExportOptions {
             let line = "--export-head: adds the head to moving hair, but none is written: also give --export FILE.usdc";
             return Err(Error::refused(line));
         }
+        self.chains.check().map_err(|why| Error::refused(format!("--export-chains, --export-cards: {why}")))?;
         self.files.iter().try_for_each(|file| {
-            let way_out = match (exchange::is_usd(file), exchange::is_alembic(file), &self.layer) {
-                (true, _, _) | (_, true, None) => return place::file(file),
-                (_, true, Some(_)) => "Alembic has no layers: write .usd, .usda or .usdc",
-                _ => "moving hair is written as .usd, .usda, .usdc or .abc",
+            let way_out = match &self.layer {
+                _ if !moving::is_moving(file) => format!("moving hair is written as {}", moving::ENDINGS),
+                Some(_) if !exchange::is_usd(file) => moving::no_layers(file),
+                _ => return place::file(file),
             };
             Err(Error::refused(format!("{}: {way_out}", file.display())))
         })
@@ -80,10 +84,11 @@ impl<'a> Exports<'a> {
             let imported = built.groom.imported.as_ref();
             let mut export = exchange::export(hair, frame_rate, imported.map(|imported| &imported.placement));
             export.first_frame = built.first_frame();
+            export.frames = built.frames() + 1;
             export.default_width = Some(built.scene.picture.hair.width);
             export.default_colour = Some(colour::of_mass(&built.scene.picture.hair));
             let own = built.scene.head.source != HeadSource::Builtin;
-            export.head = (options.head || own && !exchange::is_alembic(path)).then_some(&built.model.head.mesh);
+            export.head = (options.head || own && exchange::is_usd(path)).then_some(&built.model.head.mesh);
             if let Some(prim) = &options.layer {
                 let in_file = imported.map(|imported| imported.report.points_in_file as u64);
                 let used = hair.strands.points().len();
@@ -97,12 +102,12 @@ impl<'a> Exports<'a> {
                     super::tasks::lost(path, exchange::layer_losses(curves, built.head_moves()), watch);
                 }
             }
-            let bytes = exchange::least_bytes(path, &export, u64::from(built.frames()) + 1, options.layer.is_some());
+            let bytes = moving::least_bytes(path, &export, options.layer.is_some());
             place::room(path, bytes, watch)?;
             if options.layer.is_none() {
-                super::tasks::lost(path, exchange::losses(path, hair), watch);
+                super::tasks::lost(path, moving::losses(path, hair), watch);
             }
-            sinks.push((path.clone(), exchange::sink(path, export, options.layer.as_deref())?));
+            sinks.push((path.clone(), moving::sink(path, export, options.layer.as_deref(), options.chains)?));
         }
         let turned = built.groom.hair.attributes.tip_first.as_deref().filter(|_| !sinks.is_empty());
         let turned = turned.map(|turned| (turned, built.strands().clone()));
@@ -130,12 +135,12 @@ impl<'a> Exports<'a> {
         Ok(())
     }
 
-    /// Completes the files and names them.
-    pub fn finish(self) -> Result<Vec<PathBuf>> {
+    /// Completes the files and names them. With each, what it holds, where that is worth telling.
+    pub fn finish(self) -> Result<Vec<(PathBuf, Option<String>)>> {
         let mut written = Vec::new();
         for (path, sink) in self.sinks {
-            sink.finish().map_err(|e| named(e, &path))?;
-            written.push(path);
+            let holds = sink.finish().map_err(|e| named(e, &path))?;
+            written.push((path, holds));
         }
         Ok(written)
     }

@@ -100,5 +100,10 @@ pub(crate) fn lost(file: &Path, losses: Vec<String>, watch: &mut dyn Watch) {
 
 /// Reports which files now exist.
 fn wrote(files: Vec<PathBuf>, watch: &mut dyn Watch) {
-    files.into_iter().for_each(|file| watch.told(Told::Wrote { file, holds: None }));
+    wrote_with(files.into_iter().map(|file| (file, None)), watch);
+}
+
+/// The same, with what each file holds.
+fn wrote_with(files: impl Iterator<Item = (PathBuf, Option<String>)>, watch: &mut dyn Watch) {
+    files.for_each(|(file, holds)| watch.told(Told::Wrote { file, holds }));
 }

@@ -7,6 +7,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use nabiki::dynamics::Stepper;
 use nabiki_io::Axis;
 use nabiki_io::exchange;
+use nabiki_io::moving::{self, ChainOptions};
 use nabiki_io::{Placement, Unit};
 use nabiki_scene::scene::{HeadSource, Scene};
 use nabiki_scene::{BuiltScene, Shown};
@@ -72,7 +73,7 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
         for file in files.into_iter().flatten() {
             let mut export = exchange::export(&bust.groom.hair, 24.0, Some(&placement));
             export.head = Some(&bust.model.head.mesh);
-            let mut sink = exchange::sink(&scene.resolve(file), export, None).unwrap();
+            let mut sink = moving::sink(&scene.resolve(file), export, None, ChainOptions::default()).unwrap();
             for frame in 0..if moves { 60 } else { 1 } {
                 let to_the_side = DAffine3::from_translation(0.01 * f64::from(frame) * DVec3::X);
                 sink.frame(bust.strands(), &to_the_side).unwrap();

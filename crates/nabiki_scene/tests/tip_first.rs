@@ -142,7 +142,7 @@ fn what_goes_out_has_its_points_as_the_file_has_them() {
     let prim = nabiki_io::GroomFile::open(&file("source.usda")).unwrap().curves(Path::new("source.usda")).unwrap();
     let layer = Some(prim.curves[0].path.clone());
     let exported = |layer: &Option<String>, name: &str, cache: &str| {
-        let exports = ExportOptions { files: vec![file(name)], layer: layer.clone(), head: false };
+        let exports = ExportOptions { files: vec![file(name)], layer: layer.clone(), ..ExportOptions::default() };
         let options = SimulateOptions { output: file(cache), exports, twin: Twin::Fast, shard: None };
         simulate(scene.clone(), Shown::All, &options, &mut Unwatched).unwrap();
     };

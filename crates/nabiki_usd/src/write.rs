@@ -323,8 +323,9 @@ impl FrameSink for HairStage<'_> {
         Ok(())
     }
 
-    fn finish(self: Box<Self>) -> io::Result<()> {
-        self.complete()
+    fn finish(self: Box<Self>) -> io::Result<Option<String>> {
+        self.complete()?;
+        Ok(None)
     }
 }
 

@@ -230,7 +230,7 @@ impl Scene {
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let exports = ExportOptions { files: Vec::new(), layer, head };
+        let exports = ExportOptions { layer, head, ..ExportOptions::default() };
         let options = SimulateOptions { output: file, exports, twin: Twin::Fast, shard: None };
         let State { scene, fields, made: _held, .. } = self.checked(py)?;
         let shown = shown(strands);

@@ -8,6 +8,7 @@ use nabiki_io::Axis;
 use nabiki_io::cache::{Origin, Reader};
 use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
+use nabiki_io::moving::{self, ChainOptions};
 use nabiki_io::{CurvePrim, GroomFile, Placement, Unit};
 
 use crate::advice::Advice;
@@ -36,6 +37,8 @@ pub struct ConvertOptions {
     pub layer: Option<String>,
     /// Number of the first frame on the output's timeline, instead of the input's.
     pub first_frame: Option<i32>,
+    /// How hair is turned into chains of joints, for a .glb.
+    pub chains: ChainOptions,
 }
 
 /// Reads hair in one format and writes it in another.
@@ -44,7 +47,7 @@ pub struct ConvertOptions {
 /// An input that cannot be read, or an output that cannot be written or would overwrite the input.
 pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
     check_output(options)?;
-    let to_tools = exchange::is_usd(&options.output) || exchange::is_alembic(&options.output);
+    let to_tools = moving::is_moving(&options.output);
     let moves = options.frame.is_none() && to_tools;
     let mut input = Input::open(&options.input)?;
     let frames = input.frames()?;
@@ -58,9 +61,8 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
         return Err(Error::refused(format!("{}: {line}", options.input.display())));
     }
     if let (Some(first), false) = (options.first_frame, to_tools) {
-        let line = format!(
-            "--first-frame {first}: this file has no time line; leave it out, or write .usd, .usda, .usdc or .abc"
-        );
+        let line =
+            format!("--first-frame {first}: this file has no time line; leave it out, or write {}", moving::ENDINGS);
         return Err(Error::refused(format!("{}: {line}", options.output.display())));
     }
     advise_space(options, watch);
@@ -84,7 +86,10 @@ fn check_output(options: &ConvertOptions) -> Result<()> {
             output.display()
         )));
     }
-    hair::losses(output, &Hair::default())?;
+    if !moving::is_moving(output) {
+        hair::losses(output, &Hair::default())?;
+    }
+    options.chains.check().map_err(|why| Error::refused(format!("--export-chains, --export-cards: {why}")))?;
     check_space(options)?;
     if let Some(first) = options.first_frame {
         check_first_frame("--first-frame", first).map_err(|e| Error::refused(e.to_string()))?;
@@ -167,7 +172,10 @@ impl Input {
         match self {
             Self::Cache(cache) => {
                 let Some(frame) = options.frame else {
-                    let line = "a motion cache has many frames; choose one with --frame N, or write .usd, .usda, .usdc or .abc";
+                    let line = format!(
+                        "a motion cache has many frames; choose one with --frame N, or write {}",
+                        moving::ENDINGS
+                    );
                     return Err(Error::refused(format!("{}: {line}", input.display())));
                 };
                 check_frame(input, frame, cache.frame_count())?;
@@ -240,16 +248,17 @@ fn one_frame(options: &ConvertOptions, mut input: Input, watch: &mut dyn Watch) 
     let output = options.output.as_path();
     let (hair, pose) = input.read(options)?;
     super::unread(&options.input, &hair.attributes.unread, watch);
-    place::room(output, hair::least_bytes(output, &hair)?, watch)?;
+    let to_tools = moving::is_moving(output);
+    let least = if to_tools { 0 } else { hair::least_bytes(output, &hair)? };
+    place::room(output, least, watch)?;
     let declared = input.declared_space()?;
-    let to_tools = exchange::is_usd(output) || exchange::is_alembic(output);
     let mut losses = if to_tools {
         let said = if let Input::Cache(_) = input { declared } else { said(options, declared)? };
         let (number, rate) = input.number(options)?;
         let mut export = exchange::still(&hair, said);
         (export.first_frame, export.frame_rate) = (options.first_frame.unwrap_or(number), rate);
         exchange::write_still(output, export, &input.world_from_hair(&pose))?;
-        exchange::losses(output, &hair)
+        moving::losses(output, &hair)
     } else {
         hair::write(output, &hair)?
     };
@@ -365,8 +374,9 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     }
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = cache.frame_count();
-    place::room(output, exchange::least_bytes(output, &export, frames, layer.is_some()), watch)?;
-    let mut sink = exchange::sink(output, export, layer)?;
+    export.frames = u32::try_from(frames).unwrap_or(u32::MAX);
+    place::room(output, moving::least_bytes(output, &export, layer.is_some()), watch)?;
+    let mut sink = moving::sink(output, export, layer, options.chains)?;
     let mut strands = cache.header().strands();
     // The header of a cache has fewer frames than that.
     let last = u32::try_from(frames.saturating_sub(1)).unwrap_or(u32::MAX);
@@ -377,13 +387,18 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
         strands.turn(tip_first.as_deref().unwrap_or_default());
         sink.frame(&strands, &Origin::world_from_head(origin.as_ref(), &pose)).map_err(failed)
     })?;
-    sink.finish().map_err(failed)?;
+    let holds = sink.finish().map_err(failed)?;
     let mut losses: Vec<String> =
-        exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, space_of(&cache))).collect();
+        moving::losses(output, &hair).into_iter().chain(unsaid_space(options, space_of(&cache))).collect();
     if let Some(curves) = &curves {
         losses.extend(exchange::layer_losses(curves, head_moves));
     }
-    finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
+    finish(
+        options,
+        losses,
+        holds.unwrap_or_else(|| format!("{frames} frames of {} strands", hair.strands.len())),
+        watch,
+    );
     Ok(())
 }
 
@@ -401,8 +416,9 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
     export.z_up = declared.up == Some(Axis::PlusZ);
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = moving.frames() as u32;
-    place::room(output, exchange::least_bytes(output, &export, frames.into(), false), watch)?;
-    let mut sink = exchange::sink(output, export, None)?;
+    export.frames = frames;
+    place::room(output, moving::least_bytes(output, &export, false), watch)?;
+    let mut sink = moving::sink(output, export, None, options.chains)?;
     each_frame(watch, "converting", 0..=frames - 1, |frame| {
         let (strands, world_from_hair) = moving.frame(frame as usize)?;
         if strands.starts() != hair.strands.starts() {
@@ -414,8 +430,13 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
         }
         sink.frame(&strands, &world_from_hair).map_err(failed)
     })?;
-    sink.finish().map_err(failed)?;
-    let losses = exchange::losses(output, &hair).into_iter().chain(unsaid_space(options, declared)).collect();
-    finish(options, losses, format!("{frames} frames of {} strands", hair.strands.len()), watch);
+    let holds = sink.finish().map_err(failed)?;
+    let losses = moving::losses(output, &hair).into_iter().chain(unsaid_space(options, declared)).collect();
+    finish(
+        options,
+        losses,
+        holds.unwrap_or_else(|| format!("{frames} frames of {} strands", hair.strands.len())),
+        watch,
+    );
     Ok(())
 }

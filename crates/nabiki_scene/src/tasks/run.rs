@@ -40,9 +40,8 @@ pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, w
     let mut frames = Exported { frames: simulated, built: &built, exports: &mut exports };
     let summary = Film::new(&built, &scene.picture, &mut rehearsal, watch)?.shoot(&mut frames, &mut outputs, watch)?;
     watch.told(Told::Motion(summary));
-    let mut written = outputs.finish(watch)?;
-    written.extend(exports.finish()?);
-    super::wrote(written, watch);
+    let pictures = outputs.finish(watch)?.into_iter().map(|file| (file, None));
+    super::wrote_with(pictures.chain(exports.finish()?), watch);
     Ok(())
 }
 

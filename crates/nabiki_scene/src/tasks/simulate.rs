@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nabiki_file::folder_of;
 use nabiki_io::cache::Shard;
-use nabiki_io::exchange;
+use nabiki_io::moving;
 
 use crate::built::Shown;
 use crate::cache_file::SceneCache;
@@ -55,7 +55,7 @@ pub enum Twin {
 /// A scene that cannot be built or simulated, a place that cannot be written, or cancelled by `watch`.
 pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &mut dyn Watch) -> Result<()> {
     let mut exports = options.exports.clone();
-    let to_tools = exchange::is_usd(&options.output) || exchange::is_alembic(&options.output);
+    let to_tools = moving::is_moving(&options.output);
     let cache = (!to_tools).then_some(options.output.as_path());
     if let Some(ShardOptions { shard, .. }) = options.shard
         && !(cache.is_some() && exports.files.is_empty())
@@ -72,7 +72,8 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     }
     match cache {
         Some(cache) => {
-            place::cache(cache, "moving hair for other tools in .usd, .usda, .usdc or .abc", &scene.inputs())?
+            let others = format!("moving hair for other tools in {}", moving::ENDINGS);
+            place::cache(cache, &others, &scene.inputs())?
         }
         None => exports.files.insert(0, options.output.clone()),
     }
@@ -110,7 +111,7 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
     })?;
     scene_cache.map_or(Ok(()), SceneCache::finish)?;
     watch.told(Told::Motion(summary));
-    let written = cache.map(Path::to_owned).into_iter().chain(exports.finish()?);
-    super::wrote(written.collect(), watch);
+    let written = cache.map(|cache| (cache.to_owned(), None)).into_iter().chain(exports.finish()?);
+    super::wrote_with(written, watch);
     Ok(())
 }

@@ -1,0 +1,168 @@
+//! Moving hair as a skinned mesh for games: `.glb` with chains of joints, their animation, and hair bound to them.
+//!
+//! Some strands, the guides, are evenly spread and become chains. Every strand follows two guides near its root, those
+//! that take it nearest to where it was simulated. Only the joints are animated, so the file stays small.
+
+mod bind;
+mod chain;
+mod glb;
+
+use std::io;
+use std::path::Path;
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use nabiki::Strands;
+use nabiki::subset::evenly;
+use nabiki_exchange::{Export, FrameSink};
+use nabiki_file::PartFile;
+
+use bind::{Sampled, bind, choose};
+use chain::Guide;
+
+/// How hair is turned into chains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChainOptions {
+    /// Number of chains, at least 1; fewer if there are fewer strands.
+    pub chains: u32,
+    /// Joints of a chain, at least 1.
+    pub joints: u32,
+    /// Width of the ribbons that strands are drawn as (cm). 0 draws lines, which few engines bind to joints.
+    pub cards: f32,
+}
+
+impl Default for ChainOptions {
+    fn default() -> Self {
+        Self { chains: 64, joints: 8, cards: 0.4 }
+    }
+}
+
+impl ChainOptions {
+    /// Most joints in a file: readers store their numbers in 16 bits.
+    pub const MOST_JOINTS: u32 = 65_535;
+
+    /// Refuses no chains, no joints, too many of both, and a width below 0.
+    ///
+    /// # Errors
+    /// What is wrong, as a phrase.
+    pub fn check(&self) -> Result<(), String> {
+        let Self { chains, joints, cards } = *self;
+        let all = u64::from(chains) * u64::from(joints);
+        if all == 0 {
+            return Err(format!("{chains}x{joints}: give at least 1x1"));
+        }
+        if all > u64::from(Self::MOST_JOINTS) {
+            return Err(format!("{chains}x{joints} are {all} joints: a file holds at most {}", Self::MOST_JOINTS));
+        }
+        if !(cards >= 0.0 && cards.is_finite()) {
+            return Err(format!("cards of {cards} cm: give a width, or 0 for lines"));
+        }
+        Ok(())
+    }
+}
+
+/// So many strands for each chain may become its guide.
+const CANDIDATES: u64 = 12;
+/// Memory for the ways of these.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// Frames in which hair and its chains are compared, at most.
+const COMPARED: u32 = 16;
+
+/// A file of chains that is being written. It is made at the end, from what its chains did.
+pub(crate) struct JointChains<'a> {
+    file: PartFile,
+    export: Export<'a>,
+    options: ChainOptions,
+    /// Takes points of the file to glTF: metres, y up, facing +z where the hair has no file of its own.
+    gltf_from_file: DAffine3,
+    guides: Vec<Guide>,
+    sampled: Sampled,
+    /// The head's node in each frame.
+    heads: Vec<DAffine3>,
+    room: Vec<Vec3>,
+}
+
+impl<'a> JointChains<'a> {
+    /// Begins the file.
+    ///
+    /// # Errors
+    /// What the disk says; hair that is not fit to be written.
+    pub fn create(path: &Path, export: Export<'a>, options: ChainOptions) -> io::Result<Self> {
+        export.check()?;
+        options.check().map_err(|problem| io::Error::new(io::ErrorKind::InvalidInput, problem))?;
+        let scale = export.meters_per_unit;
+        let matrix3 = match (export.faces_x, export.z_up) {
+            // +x to +z, y stays.
+            (true, _) => DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X),
+            (false, true) => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+            (false, false) => DMat3::IDENTITY,
+        };
+        let gltf_from_file = DAffine3 { matrix3: matrix3 * scale, translation: DVec3::ZERO };
+        let rest = placed(&export, &gltf_from_file, &export.hair.strands);
+        let roots: Vec<Vec3> = rest.iter().map(|strand| strand[0]).collect();
+        // Their way through all frames must fit into memory.
+        let bytes = u64::from(options.joints + 1) * u64::from(export.frames) * size_of::<Vec3>() as u64;
+        let most = (MOST_BYTES / bytes).min(u64::from(options.chains) * CANDIDATES).max(u64::from(options.chains));
+        let guides = evenly(&roots, most as usize);
+        let guides = guides.into_iter().map(|s| Guide::new(s, rest.strand(s), options.joints as usize)).collect();
+        let sampled = Sampled::new(&rest, export.frames, COMPARED);
+        let file = PartFile::create(path)?;
+        Ok(Self { file, export, options, gltf_from_file, guides, sampled, heads: Vec::new(), room: Vec::new() })
+    }
+}
+
+/// The strands in glTF's axes and unit, on the head.
+fn placed(export: &Export<'_>, gltf_from_file: &DAffine3, strands: &Strands) -> Strands {
+    let gltf_from_head = *gltf_from_file * export.file_from_head;
+    let mut placed = strands.clone();
+    placed.points_mut().iter_mut().for_each(|p| *p = gltf_from_head.transform_point3(p.as_dvec3()).as_vec3());
+    placed
+}
+
+impl FrameSink for JointChains<'_> {
+    fn frame(&mut self, strands: &Strands, world_from_head: &DAffine3) -> io::Result<()> {
+        // Refuses strands that do not match.
+        self.export.points(strands, &mut self.room)?;
+        let now = placed(&self.export, &self.gltf_from_file, strands);
+        self.guides.iter_mut().for_each(|guide| guide.push(&now));
+        self.sampled.push(&now);
+        let parent = DAffine3::from_mat4(self.export.parent(world_from_head));
+        self.heads.push(self.gltf_from_file * parent * self.gltf_from_file.inverse());
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> io::Result<Option<String>> {
+        let rest = placed(&self.export, &self.gltf_from_file, &self.export.hair.strands);
+        let candidates = std::mem::take(&mut self.guides);
+        self.guides = choose(&rest, candidates, self.options.chains as usize, &self.sampled);
+        let (bound, apart) = bind(&rest, &self.guides, &self.sampled);
+        let colour = self.export.hair.attributes.constant.colour.or(self.export.default_colour);
+        let head = self.export.head.map(|mesh| {
+            let points = mesh.positions.iter();
+            let gltf_from_head = self.gltf_from_file * self.export.file_from_head;
+            let points = points.map(|p| gltf_from_head.transform_point3(p.as_dvec3()).as_vec3()).collect();
+            (points, &mesh.triangles[..])
+        });
+        let scene = glb::Scene {
+            rest: &rest,
+            bound: &bound,
+            guides: &self.guides,
+            heads: &self.heads,
+            frame_rate: self.export.frame_rate,
+            colour: colour.unwrap_or([0.2, 0.1, 0.05]),
+            half_width: (self.options.cards > 0.0).then_some(0.5 * 0.01 * self.options.cards),
+            head,
+        };
+        glb::write(&scene, &mut self.file)?;
+        self.file.finish()?;
+        let [mean, most] = apart.map(|metres| 100.0 * metres);
+        let (chains, joints) = (self.guides.len(), self.options.joints);
+        Ok(Some(format!(
+            "{chains} chains of {joints} joints; the skinned hair is {mean:.2} cm from the simulated on average, {most:.1} cm \
+             at most"
+        )))
+    }
+}
+
+#[cfg(test)]
+mod tests;

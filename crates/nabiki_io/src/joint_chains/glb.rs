@@ -1,0 +1,345 @@
+//! The bytes of a `.glb` with chains of joints: the JSON, and one buffer.
+
+use std::io::{self, Write};
+
+use glam::{DAffine3, DQuat, Vec3};
+use nabiki::Strands;
+use serde_json::{Value, json};
+
+use super::bind::Influence;
+use super::chain::{Bone, Guide};
+
+// Names of the specification.
+const FLOAT: u32 = 5126;
+const SHORT: u32 = 5122;
+const BYTE: u32 = 5121;
+const UNSIGNED_SHORT: u32 = 5123;
+const UNSIGNED_INT: u32 = 5125;
+const LINES: u32 = 1;
+const TRIANGLES: u32 = 4;
+
+/// Roots of skin that move less than this stay where they are (m).
+const STAYS: f64 = 1e-6;
+
+/// What is written. Points are in metres, y up, on the head.
+pub(super) struct Scene<'a> {
+    pub rest: &'a Strands,
+    /// What leads each of these points.
+    pub bound: &'a [Influence],
+    pub guides: &'a [Guide],
+    /// The head in each frame.
+    pub heads: &'a [DAffine3],
+    pub frame_rate: f64,
+    /// Linear RGB.
+    pub colour: [f32; 3],
+    /// Half the width of ribbons (m); `None` draws lines.
+    pub half_width: Option<f32>,
+    /// Vertices and triangles of the head.
+    pub head: Option<(Vec<Vec3>, &'a [[u32; 3]])>,
+}
+
+/// The buffer, and what describes it.
+#[derive(Default)]
+struct Binary {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+}
+
+impl Binary {
+    /// A view of some bytes. `target`: what a graphics card takes them for.
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.bytes.extend_from_slice(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.views.push(view);
+        self.views.len() - 1
+    }
+
+    fn accessor(&mut self, view: usize, offset: usize, component: u32, kind: &str, count: usize) -> usize {
+        let accessor = json!({
+            "bufferView": view, "byteOffset": offset, "componentType": component, "type": kind, "count": count
+        });
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    /// Attributes of vertices or of the animation.
+    fn vectors(&mut self, vectors: &[Vec3], target: Option<u32>) -> usize {
+        let view = self.view(bytemuck::cast_slice(vectors), target);
+        self.accessor(view, 0, FLOAT, "VEC3", vectors.len())
+    }
+
+    /// Positions, with the bounds that are required of these.
+    fn positions(&mut self, points: &[Vec3]) -> usize {
+        let accessor = self.vectors(points, VERTICES);
+        let [low, high] = nabiki::strands::bounds(points).map(|p| p.to_array());
+        self.accessors[accessor]["min"] = short(&low);
+        self.accessors[accessor]["max"] = short(&high);
+        accessor
+    }
+
+    /// Indices of vertices, in 16 bits where they fit: the largest number of these is not an index.
+    fn indices(&mut self, indices: &[u32]) -> usize {
+        let narrow: Option<Vec<u16>> =
+            indices.iter().map(|&index| u16::try_from(index).ok().filter(|&index| index < u16::MAX)).collect();
+        let (bytes, component) = match &narrow {
+            Some(narrow) => (bytemuck::cast_slice(narrow), UNSIGNED_SHORT),
+            None => (bytemuck::cast_slice(indices), UNSIGNED_INT),
+        };
+        let view = self.view(bytes, Some(34963));
+        self.accessor(view, 0, component, "SCALAR", indices.len())
+    }
+}
+
+const VERTICES: Option<u32> = Some(34962);
+
+/// Writes the file.
+pub(super) fn write(scene: &Scene<'_>, to: &mut impl Write) -> io::Result<()> {
+    let mut binary = Binary::default();
+    let mesh = hair(scene, &mut binary);
+    let (mut nodes, joints) = joints(scene);
+    let skin = skin(scene, &joints, &mut binary);
+    let animation = animation(scene, &joints, &mut binary);
+    nodes.push(json!({ "name": "hair", "mesh": 0, "skin": 0 }));
+    let roots = json!([0, nodes.len() - 1]);
+    let mut meshes = vec![mesh];
+    let mut materials = vec![material("hair", scene.colour, scene.half_width.is_some())];
+    if let Some((points, triangles)) = &scene.head {
+        let position = binary.positions(points);
+        let indices = binary.indices(triangles.as_flattened());
+        meshes.push(json!({ "name": "head", "primitives": [
+            { "attributes": { "POSITION": position }, "indices": indices, "mode": TRIANGLES, "material": 1 }
+        ] }));
+        materials.push(material("skin", [0.75, 0.5, 0.4], false));
+        nodes[0]["mesh"] = 1.into();
+    }
+    let mut document = json!({
+        "asset": { "version": "2.0", "generator": concat!("Nabiki ", env!("CARGO_PKG_VERSION")) },
+        "scene": 0,
+        "scenes": [{ "nodes": roots }],
+        "nodes": nodes,
+        "meshes": meshes,
+        "materials": materials,
+        "skins": [skin],
+        "accessors": binary.accessors,
+        "bufferViews": binary.views,
+        "buffers": [{ "byteLength": binary.bytes.len() }],
+    });
+    if scene.heads.len() > 1 {
+        document["animations"] = json!([animation]);
+    }
+    let mut text = serde_json::to_vec(&document).map_err(io::Error::other)?;
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let whole = |length: usize| {
+        u32::try_from(length).map_err(|_| {
+            let problem = format!("it would have {length} bytes: a .glb holds less than 4 GiB; show fewer strands");
+            io::Error::new(io::ErrorKind::InvalidInput, problem)
+        })
+    };
+    let all = whole(12 + 8 + text.len() + 8 + binary.bytes.len())?;
+    to.write_all(b"glTF")?;
+    for word in [2, all, whole(text.len())?, 0x4E4F_534A] {
+        to.write_all(&word.to_le_bytes())?;
+    }
+    to.write_all(&text)?;
+    for word in [whole(binary.bytes.len())?, 0x004E_4942] {
+        to.write_all(&word.to_le_bytes())?;
+    }
+    to.write_all(&binary.bytes)
+}
+
+fn material(name: &str, [r, g, b]: [f32; 3], two_sided: bool) -> Value {
+    json!({ "name": name, "doubleSided": two_sided, "pbrMetallicRoughness": {
+        "baseColorFactor": [r.min(1.0), g.min(1.0), b.min(1.0), 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.6
+    } })
+}
+
+/// The mesh of the hair at rest: lines, or a ribbon for each strand.
+fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
+    let strands = scene.rest;
+    let (points, each) = match scene.half_width {
+        None => (strands.points().to_vec(), 1),
+        Some(half) => (strands.iter().flat_map(|strand| ribbon(strand, half)).collect(), 2),
+    };
+    let (mut joints, mut weights): (Vec<[u16; 4]>, Vec<[u8; 4]>) = (Vec::new(), Vec::new());
+    for (of, by) in scene.bound {
+        for _ in 0..each {
+            joints.push(*of);
+            weights.push(*by);
+        }
+    }
+    let segments = |s: usize| {
+        let range = strands.range(s);
+        (range.start..range.end - 1).map(|at| at as u32)
+    };
+    let all = (0..strands.len()).flat_map(segments);
+    let (indices, mode): (Vec<u32>, u32) = match each {
+        1 => (all.flat_map(|at| [at, at + 1]).collect(), LINES),
+        // Two points at each node: left, right.
+        _ => {
+            let quad = |at: u32| [2 * at, 2 * at + 1, 2 * at + 2, 2 * at + 2, 2 * at + 1, 2 * at + 3];
+            (all.flat_map(quad).collect(), TRIANGLES)
+        }
+    };
+    let position = binary.positions(&points);
+    let view = binary.view(bytemuck::cast_slice(&joints), VERTICES);
+    let joints = binary.accessor(view, 0, UNSIGNED_SHORT, "VEC4", points.len());
+    let view = binary.view(bytemuck::cast_slice(&weights), VERTICES);
+    let weights = binary.accessor(view, 0, BYTE, "VEC4", points.len());
+    binary.accessors[weights]["normalized"] = true.into();
+    let mut attributes = json!({ "POSITION": position, "JOINTS_0": joints, "WEIGHTS_0": weights });
+    if each == 2 {
+        let uvs: Vec<[u16; 2]> = strands.iter().flat_map(along).flat_map(|v| [[0, v], [u16::MAX, v]]).collect();
+        let view = binary.view(bytemuck::cast_slice(&uvs), VERTICES);
+        let uvs = binary.accessor(view, 0, UNSIGNED_SHORT, "VEC2", uvs.len());
+        binary.accessors[uvs]["normalized"] = true.into();
+        attributes["TEXCOORD_0"] = uvs.into();
+        let normals: Vec<Vec3> = strands.iter().flat_map(normals).flat_map(|normal| [normal; 2]).collect();
+        attributes["NORMAL"] = binary.vectors(&normals, VERTICES).into();
+    }
+    let indices = binary.indices(&indices);
+    json!({ "name": "hair", "primitives": [
+        { "attributes": attributes, "indices": indices, "mode": mode, "material": 0 }
+    ] })
+}
+
+/// How far along the strand each point is: 0 at the root, the largest number at the tip.
+fn along(strand: &[Vec3]) -> Vec<u16> {
+    let last = strand.len() - 1;
+    (0..=last).map(|i| (i * usize::from(u16::MAX) / last) as u16).collect()
+}
+
+/// The direction of the strand at each point.
+fn tangents(strand: &[Vec3]) -> impl Iterator<Item = Vec3> {
+    let last = strand.len() - 1;
+    (0..=last).map(move |i| (strand[(i + 1).min(last)] - strand[i.saturating_sub(1)]).normalize_or(Vec3::NEG_Y))
+}
+
+/// A direction across the strand at each point that lies on the skin as near as may be: ribbons lie flat on the head.
+fn normals(strand: &[Vec3]) -> Vec<Vec3> {
+    // Hair grows away from the origin of the head.
+    let out = strand[0].normalize_or(Vec3::Y);
+    tangents(strand)
+        .map(|tangent| (out - tangent * tangent.dot(out)).normalize_or(tangent.any_orthonormal_vector()))
+        .collect()
+}
+
+/// Two points at each point of the strand, left and right.
+fn ribbon(strand: &[Vec3], half: f32) -> Vec<Vec3> {
+    let sides = tangents(strand).zip(normals(strand)).map(|(tangent, normal)| half * tangent.cross(normal));
+    strand.iter().zip(sides).flat_map(|(p, side)| [*p - side, *p + side]).collect()
+}
+
+/// The nodes, of which the first is the head, and the numbers of those that are joints, guide by guide.
+fn joints(scene: &Scene<'_>) -> (Vec<Value>, Vec<usize>) {
+    let mut nodes = vec![Value::Null];
+    let (mut joints, mut roots) = (Vec::new(), Vec::new());
+    for (g, guide) in scene.guides.iter().enumerate() {
+        let count = guide.rest.len() - 1;
+        roots.push(nodes.len());
+        for k in 0..count {
+            let from = if k == 0 { guide.rest[0] } else { guide.rest[k] - guide.rest[k - 1] };
+            let mut node = json!({ "name": format!("hair_{g}_{k}"), "translation": short(&from.to_array()) });
+            if k + 1 < count {
+                node["children"] = json!([nodes.len() + 1]);
+            }
+            joints.push(nodes.len());
+            nodes.push(node);
+        }
+    }
+    nodes[0] = json!({ "name": "head", "children": roots });
+    if let Some(head) = scene.heads.first() {
+        let (turn, place) = placed(head);
+        nodes[0]["translation"] = short(&place);
+        nodes[0]["rotation"] = short(&turn);
+    }
+    (nodes, joints)
+}
+
+/// Numbers of 32 bits, with no more digits than these need.
+fn short(numbers: &[f32]) -> Value {
+    numbers.iter().map(|number| number.to_string().parse::<f64>().unwrap_or_default()).collect::<Vec<_>>().into()
+}
+
+/// Rotation and translation of a rigid transform.
+fn placed(transform: &DAffine3) -> ([f32; 4], [f32; 3]) {
+    let (_, turn, place) = transform.to_scale_rotation_translation();
+    (turn.as_quat().to_array(), place.as_vec3().to_array())
+}
+
+/// The joints that lead the hair, and where they are when it is at rest.
+fn skin(scene: &Scene<'_>, joints: &[usize], binary: &mut Binary) -> Value {
+    let rest = scene.guides.iter().flat_map(|guide| &guide.rest[..guide.rest.len() - 1]);
+    let inverse: Vec<[f32; 16]> = rest.map(|&p| glam::Mat4::from_translation(-p).to_cols_array()).collect();
+    let view = binary.view(bytemuck::cast_slice(&inverse), None);
+    let inverse = binary.accessor(view, 0, FLOAT, "MAT4", joints.len());
+    json!({ "joints": joints, "inverseBindMatrices": inverse, "skeleton": 0 })
+}
+
+/// The animation of head and joints.
+fn animation(scene: &Scene<'_>, joints: &[usize], binary: &mut Binary) -> Value {
+    let frames = scene.heads.len();
+    let times: Vec<f32> = (0..frames).map(|n| (n as f64 / scene.frame_rate) as f32).collect();
+    let view = binary.view(bytemuck::cast_slice(&times), None);
+    let input = binary.accessor(view, 0, FLOAT, "SCALAR", frames);
+    binary.accessors[input]["min"] = short(&times[..1]);
+    binary.accessors[input]["max"] = short(&times[frames - 1..]);
+    let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+    let mut channel = |output: usize, node: usize, path: &str| {
+        channels.push(json!({ "sampler": samplers.len(), "target": { "node": node, "path": path } }));
+        samplers.push(json!({ "input": input, "output": output }));
+    };
+    if scene.heads.iter().any(|head| *head != scene.heads[0]) {
+        let (turns, places): (Vec<DQuat>, Vec<Vec3>) =
+            scene.heads.iter().map(placed).map(|(q, p)| (DQuat::from_array(q.map(f64::from)), Vec3::from(p))).unzip();
+        let turns: Vec<[f32; 4]> = continuous(&turns).iter().map(|q| q.as_quat().to_array()).collect();
+        let view = binary.view(bytemuck::cast_slice(&turns), None);
+        channel(binary.accessor(view, 0, FLOAT, "VEC4", frames), 0, "rotation");
+        channel(binary.vectors(&places, None), 0, "translation");
+    }
+    // All turns in one view, in 16 bits: 3e-5 rad, which no eye sees.
+    let mut turns: Vec<[i16; 4]> = Vec::new();
+    let mut offsets = Vec::new();
+    let mut moving: Vec<(usize, Vec<Vec3>)> = Vec::new();
+    let mut first = 0;
+    for guide in scene.guides {
+        let bones: Vec<Vec<Bone>> = (0..frames).map(|n| guide.bones(n)).collect();
+        for k in 0..guide.rest.len() - 1 {
+            let local = |bones: &Vec<Bone>| {
+                let before = if k > 0 { bones[k - 1].turn } else { DQuat::IDENTITY };
+                (before.inverse() * bones[k].turn).normalize()
+            };
+            offsets.push(8 * turns.len());
+            let of_joint: Vec<DQuat> = bones.iter().map(local).collect();
+            turns.extend(continuous(&of_joint).iter().map(|q| q.to_array().map(|x| (32767.0 * x).round() as i16)));
+        }
+        if bones.iter().any(|bones| bones[0].joint.distance(bones[0].rest) > STAYS) {
+            moving.push((joints[first], bones.iter().map(|bones| bones[0].joint.as_vec3()).collect()));
+        }
+        first += guide.rest.len() - 1;
+    }
+    let view = binary.view(bytemuck::cast_slice(&turns), None);
+    for (&node, offset) in joints.iter().zip(offsets) {
+        let output = binary.accessor(view, offset, SHORT, "VEC4", frames);
+        binary.accessors[output]["normalized"] = true.into();
+        channel(output, node, "rotation");
+    }
+    for (node, places) in moving {
+        channel(binary.vectors(&places, None), node, "translation");
+    }
+    json!({ "name": "hair", "channels": channels, "samplers": samplers })
+}
+
+/// The same turns, each with the sign that is nearer to the one before it.
+fn continuous(turns: &[DQuat]) -> Vec<DQuat> {
+    let mut before = DQuat::IDENTITY;
+    let nearer = |&turn: &DQuat| {
+        before = if turn.dot(before) < 0.0 { -turn } else { turn };
+        before
+    };
+    turns.iter().map(nearer).collect()
+}

@@ -1,0 +1,106 @@
+//! Moving hair for other programs, in any format. The ending of the name decides.
+
+use std::path::Path;
+
+use nabiki::Hair;
+use nabiki_alembic::HairArchive;
+use nabiki_exchange::{Export, FrameSink};
+use nabiki_usd::{HairStage, LayerKind};
+
+use crate::error::{Error, Result};
+use crate::exchange;
+pub use crate::joint_chains::ChainOptions;
+use crate::joint_chains::JointChains;
+use crate::kind::extension;
+use crate::point_cache::{Kind, PointCache};
+
+/// The endings, for messages.
+pub const ENDINGS: &str = ".usd, .usda, .usdc, .abc, .glb, .pc2 or .mdd";
+
+/// A format of moving hair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Usd,
+    Alembic,
+    /// Chains of joints, and hair bound to them.
+    Gltf,
+    Points(Kind),
+}
+
+impl Format {
+    fn of(path: &Path) -> Option<Self> {
+        match extension(path).as_str() {
+            _ if exchange::is_usd(path) => Some(Self::Usd),
+            _ if exchange::is_alembic(path) => Some(Self::Alembic),
+            "glb" => Some(Self::Gltf),
+            "pc2" => Some(Self::Points(Kind::Pc2)),
+            "mdd" => Some(Self::Points(Kind::Mdd)),
+            _ => None,
+        }
+    }
+}
+
+/// Whether the ending is one of moving hair.
+pub fn is_moving(path: &Path) -> bool {
+    Format::of(path).is_some()
+}
+
+/// Whether the file holds hair that other programs, and this one, can read as hair: USD and Alembic.
+pub fn holds_hair(path: &Path) -> bool {
+    matches!(Format::of(path), Some(Format::Usd | Format::Alembic))
+}
+
+/// Starts a file for moving hair, frame by frame. `layer` is the prim path of a groom, for a layer with only samples;
+/// `chains` is for .glb alone.
+///
+/// # Errors
+/// Another ending, a layer for a format that has none, or an error of the disk.
+pub fn sink<'a>(
+    path: &Path,
+    export: Export<'a>,
+    layer: Option<&str>,
+    chains: ChainOptions,
+) -> Result<Box<dyn FrameSink + 'a>> {
+    let named = |e: std::io::Error| Error::from(e).in_file(path);
+    let refused = |what: String| Err(Error::new(what).in_file(path));
+    match (Format::of(path), layer) {
+        (Some(Format::Usd), layer) => {
+            let kind = layer.map_or(LayerKind::Stage, |prim| LayerKind::Layer(prim.to_owned()));
+            Ok(Box::new(HairStage::create(path, export, kind).map_err(named)?))
+        }
+        (Some(_), Some(_)) => refused(no_layers(path)),
+        (Some(Format::Alembic), None) => Ok(Box::new(HairArchive::create(path, export).map_err(named)?)),
+        (Some(Format::Gltf), None) => Ok(Box::new(JointChains::create(path, export, chains).map_err(named)?)),
+        (Some(Format::Points(kind)), None) => Ok(Box::new(PointCache::create(path, kind, export).map_err(named)?)),
+        (None, _) => refused(format!("moving hair is written as {ENDINGS}")),
+    }
+}
+
+/// Why this format takes no layer.
+pub fn no_layers(path: &Path) -> String {
+    let format = if exchange::is_alembic(path) { "Alembic".to_owned() } else { format!(".{}", extension(path)) };
+    format!("{format} has no layers: write .usd, .usda or .usdc")
+}
+
+/// The least size (bytes) of a file with as many frames as the export says. `layer` is whether it has only samples.
+pub fn least_bytes(path: &Path, export: &Export<'_>, layer: bool) -> u64 {
+    let (points, frames) = (export.hair.strands.points().len() as u64, u64::from(export.frames));
+    match Format::of(path) {
+        Some(Format::Gltf) => 12 * points,
+        Some(Format::Points(_)) => 12 * points * frames,
+        _ => exchange::least_bytes(path, export, frames, layer),
+    }
+}
+
+/// Phrases about the data of `hair` that the format of `path` cannot store.
+pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
+    if holds_hair(path) {
+        return exchange::losses(path, hair);
+    }
+    let at = &hair.attributes;
+    let carried = [at.width.is_some(), at.colour.is_some(), at.root_uv.is_some(), at.group.is_some()];
+    if carried.contains(&true) || !at.other.is_empty() {
+        return vec!["all that the hair carries besides its points".to_owned()];
+    }
+    Vec::new()
+}
