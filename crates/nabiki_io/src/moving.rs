@@ -98,9 +98,12 @@ pub fn losses(path: &Path, hair: &Hair) -> Vec<String> {
         return exchange::losses(path, hair);
     }
     let at = &hair.attributes;
-    let carried = [at.width.is_some(), at.colour.is_some(), at.root_uv.is_some(), at.group.is_some()];
-    if carried.contains(&true) || !at.other.is_empty() {
-        return vec!["all that the hair carries besides its points".to_owned()];
-    }
-    Vec::new()
+    let carried = [
+        (at.width.is_some(), "widths"),
+        (at.colour.is_some(), "colours by strand or point"),
+        (at.root_uv.is_some() || at.point_uv.is_some(), "texture coordinates"),
+        (at.group.is_some(), "groups"),
+        (!at.other.is_empty(), "attributes of its own"),
+    ];
+    carried.into_iter().filter(|&(is_there, _)| is_there).map(|(_, name)| name.to_owned()).collect()
 }

@@ -61,7 +61,7 @@ fn fill(mut sink: Box<dyn FrameSink + '_>, moving: bool) -> std::io::Result<()> 
     for frame in 0..FRAMES {
         sink.frame(&strands(frame), &if moving { pose(frame) } else { DAffine3::IDENTITY })?;
     }
-    sink.finish()
+    sink.finish().map(|_| ())
 }
 
 fn write(folder: &Path) -> std::io::Result<()> {

@@ -9,7 +9,7 @@ from .. import _nabiki
 from ._table import Table, Tables
 from .hair import Clumps, Comb, Curl, Cut, Fringe, HairSettings, Hairline, Length, Lift, Parting, Ponytail, Stiffness, Style, Variation, Volume
 from .head import BodySettings, CapsuleSettings, HeadSettings, MotionSource
-from .motion import Contact, Disturbance, FreeSettings, LockVariation, Motion, NeighbourForces, PseudoForce, Region, Tie
+from .motion import AimSettings, Contact, Disturbance, FreeSettings, LockVariation, Motion, NeighbourForces, PseudoForce, Region, Tie
 from .picture import Background, Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
 from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, ForceSettings, Gust, Point, Turbulence, Vortex, Wind
 
@@ -32,6 +32,7 @@ class SceneTables(TypedDict, total=False):
     free: FreeSettings | Mapping[str, Any] | None
     contact: Contact | Mapping[str, Any] | None
     neighbours: NeighbourForces | Mapping[str, Any] | None
+    aim: Iterable[AimSettings | Mapping[str, Any]] | None
     pseudo_force: PseudoForce | Mapping[str, Any] | None
     disturbance: Disturbance | Mapping[str, Any] | None
     body: Iterable[BodySettings | Mapping[str, Any]] | None
@@ -209,6 +210,17 @@ class SceneSettings(_nabiki.Scene):
     @neighbours.setter
     def neighbours(self, value: NeighbourForces | Mapping[str, Any] | None) -> None:
         self['neighbours'] = value
+
+    @property
+    def aim(self) -> Tables[AimSettings]:
+        """A shape that hair is led to in some frames, whatever the wind does: a pose of curves from a file, a point, or
+        the groom. Free form only.
+        """
+        return Tables(self, 'aim', AimSettings)
+
+    @aim.setter
+    def aim(self, value: Iterable[AimSettings | Mapping[str, Any]] | None) -> None:
+        self['aim'] = value
 
     @property
     def pseudo_force(self) -> PseudoForce:

@@ -8,6 +8,7 @@ from typing import Any, Literal
 from ._table import Arrays, File, Matrices, Numbers, Table, Tables
 
 __all__ = [
+    "AimSettings",
     "Contact",
     "Disturbance",
     "FreeSettings",
@@ -361,9 +362,9 @@ class LockVariation(Table):
 class Region(Table):
     """Hair that moves differently from the rest, such as a fringe that stays in the wind.
 
-    A strand belongs to the region by its group, by an attribute of the hair, or if its root is near a point or line;
-    with several of these, by all of them. Each factor multiplies a setting of `[free]`. Where regions overlap, their
-    factors multiply.
+    A strand belongs to the region by its group, by an attribute of the hair, by a painted map, or if its root is near
+    a point or line; with several of these, by all of them. Each factor multiplies a setting of `[free]`: one number,
+    or a list from root to tip. Where regions overlap, their factors multiply.
     """
 
     __slots__ = ()
@@ -401,6 +402,18 @@ class Region(Table):
     @attribute.setter
     def attribute(self, value: str | None) -> None:
         self._set('attribute', value)
+
+    @property
+    def map(self) -> str | None:
+        """A picture over the head, PNG: white where hair belongs to it fully, black where it does not. Hair finds its
+        place by its own root UVs, or else by the UVs of the head's mesh where it grows. Path; default: none.
+        """
+        value: str | None = self._get('map')
+        return value
+
+    @map.setter
+    def map(self, value: File | None) -> None:
+        self._set('map', value)
 
     @property
     def near(self) -> tuple[float, float, float] | None:
@@ -447,33 +460,35 @@ class Region(Table):
         self._set('soft', value)
 
     @property
-    def stiffness(self) -> float:
-        """Factor on `free.stiffness`. Number, 0 to 10; default: 1."""
-        value: float = self._get('stiffness')
+    def stiffness(self) -> float | tuple[float, ...]:
+        """Factor on `free.stiffness`. Number, 0 to 10, or list of numbers, each 0 to 10; default: 1."""
+        value: float | tuple[float, ...] = self._get('stiffness')
         return value
 
     @stiffness.setter
-    def stiffness(self, value: float | None) -> None:
+    def stiffness(self, value: float | Numbers | None) -> None:
         self._set('stiffness', value)
 
     @property
-    def hold(self) -> float:
-        """Factor on `free.hold`. Number, 0 to 10; default: 1."""
-        value: float = self._get('hold')
+    def hold(self) -> float | tuple[float, ...]:
+        """Factor on `free.hold`. Number, 0 to 10, or list of numbers, each 0 to 10; default: 1."""
+        value: float | tuple[float, ...] = self._get('hold')
         return value
 
     @hold.setter
-    def hold(self, value: float | None) -> None:
+    def hold(self, value: float | Numbers | None) -> None:
         self._set('hold', value)
 
     @property
-    def settle(self) -> float:
-        """Factor on `free.settle`: at 2, hair swings twice as long. Number, 0.01 to 10; default: 1."""
-        value: float = self._get('settle')
+    def settle(self) -> float | tuple[float, ...]:
+        """Factor on `free.settle`: at 2, hair swings twice as long. Number, 0.01 to 10, or list of numbers, each 0.01 to
+        10; default: 1.
+        """
+        value: float | tuple[float, ...] = self._get('settle')
         return value
 
     @settle.setter
-    def settle(self, value: float | None) -> None:
+    def settle(self, value: float | Numbers | None) -> None:
         self._set('settle', value)
 
     @property
@@ -487,13 +502,13 @@ class Region(Table):
         self._set('wind', value)
 
     @property
-    def drag(self) -> float:
-        """Factor on `free.drag`. Number, 0 to 10; default: 1."""
-        value: float = self._get('drag')
+    def drag(self) -> float | tuple[float, ...]:
+        """Factor on `free.drag`. Number, 0 to 10, or list of numbers, each 0 to 10; default: 1."""
+        value: float | tuple[float, ...] = self._get('drag')
         return value
 
     @drag.setter
-    def drag(self, value: float | None) -> None:
+    def drag(self, value: float | Numbers | None) -> None:
         self._set('drag', value)
 
 
@@ -623,6 +638,140 @@ class NeighbourForces(Table):
     @cell.setter
     def cell(self, value: float | None) -> None:
         self._set('cell', value)
+
+
+class AimSettings(Table):
+    """A shape that hair is led to in some frames, whatever the wind does: a pose of curves from a file, a point, or the
+    groom. Free form only.
+    """
+
+    __slots__ = ()
+
+    @property
+    def name(self) -> str:
+        """Name of the aim, for `info`. Text; default: none."""
+        value: str = self._get('name')
+        return value
+
+    @name.setter
+    def name(self, value: str | None) -> None:
+        self._set('name', value)
+
+    @property
+    def region(self) -> str | None:
+        """Name of the region of `[[free.regions]]` that it leads. Where the region fades, so does the strength. Text;
+        default: all hair.
+        """
+        value: str | None = self._get('region')
+        return value
+
+    @region.setter
+    def region(self, value: str | None) -> None:
+        self._set('region', value)
+
+    @property
+    def file(self) -> str:
+        """A file with curves of the shape: .usd, .usda, .usdc, .abc, .nabiki, .hair, .tfx or .obj. A strand follows the
+        directions of the curves that begin nearest to its root. Path; default: none.
+        """
+        value: str = self._get('file')
+        return value
+
+    @file.setter
+    def file(self, value: File | None) -> None:
+        self._set('file', value)
+
+    @property
+    def frame(self) -> int | None:
+        """The frame of the scene in which the curves are posed, on the head as it is there. From a file that moves, this
+        frame is used, counted from the file's first. Without it, the curves are posed on the head at rest. Whole
+        number; default: at rest.
+        """
+        value: int | None = self._get('frame')
+        return value
+
+    @frame.setter
+    def frame(self, value: int | None) -> None:
+        self._set('frame', value)
+
+    @property
+    def toward(self) -> tuple[float, float, float] | None:
+        """A point to lead hair to instead of a shape, in the space of the head at rest. 3 numbers, each -100000 to
+        100000 (cm); default: a shape.
+        """
+        value: tuple[float, float, float] | None = self._get('toward')
+        return value
+
+    @toward.setter
+    def toward(self, value: Numbers | None) -> None:
+        self._set('toward', value)
+
+    @property
+    def groom(self) -> bool:
+        """Whether to lead hair to its groom, the shape at rest. True or false; default: false."""
+        value: bool = self._get('groom')
+        return value
+
+    @groom.setter
+    def groom(self, value: bool | None) -> None:
+        self._set('groom', value)
+
+    @property
+    def strength(self) -> float | str:
+        """Strength of the pull. "3 g" pulls with three times the weight of the hair on earth; a number is in F. Against
+        a force F, limp hair settles along F + S t, where t is the direction of the aim. Number of at least 0 or "...
+        g"; default: "3 g".
+        """
+        value: float | str = self._get('strength')
+        return value
+
+    @strength.setter
+    def strength(self, value: float | str | None) -> None:
+        self._set('strength', value)
+
+    @property
+    def from_(self) -> int:
+        """First frame of the full strength. Whole number (frame); default: 0."""
+        value: int = self._get('from')
+        return value
+
+    @from_.setter
+    def from_(self, value: int | None) -> None:
+        self._set('from', value)
+
+    @property
+    def through(self) -> int | None:
+        """Last frame of the full strength. Without it, the aim never ends. Whole number (frame); default: the end."""
+        value: int | None = self._get('through')
+        return value
+
+    @through.setter
+    def through(self, value: int | None) -> None:
+        self._set('through', value)
+
+    @property
+    def ease_in(self) -> int:
+        """Number of frames before `from` in which the strength rises from 0. Whole number, 0 to 1000000 (frames);
+        default: 12.
+        """
+        value: int = self._get('ease_in')
+        return value
+
+    @ease_in.setter
+    def ease_in(self, value: int | None) -> None:
+        self._set('ease_in', value)
+
+    @property
+    def ease_out(self) -> int:
+        """Number of frames after `through` in which the strength falls to 0. Whole number, 0 to 1000000 (frames);
+        default: 12.
+        """
+        value: int = self._get('ease_out')
+        return value
+
+    @ease_out.setter
+    def ease_out(self, value: int | None) -> None:
+        self._set('ease_out', value)
 
 
 class PseudoForce(Table):
