@@ -45,7 +45,7 @@ pub mod obj_lines;
 mod obj_text;
 pub mod painted;
 pub mod placement;
-mod point_cache;
+pub mod point_cache;
 pub mod screen;
 pub mod shell;
 mod short;

@@ -6,6 +6,7 @@ mod clip;
 mod csv;
 mod joints;
 mod mover;
+mod points;
 mod resample;
 mod source;
 mod survey;
@@ -26,6 +27,7 @@ pub(crate) use clip::Clip;
 
 pub use crate::axis::Axis;
 pub use mover::{ClipMover, clip_carries, clip_mover};
+pub use points::of_points;
 pub use source::{Interpolation, MotionSource};
 pub use survey::{MotionInfo, survey};
 pub use track::{Sample, Track};
@@ -53,7 +55,7 @@ pub fn read(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
         "glb" | "gltf" => clip(source, &input::read(file, MOST_BINARY_BYTES)?, frame_rate),
         "abc" | "usd" | "usda" | "usdc" => exchange::track(file, &source.node)?.head_motion(source, frame_rate),
         other => {
-            let known = ".bvh, .amc, .tof, .glb, .gltf, .csv, .abc, .usd, .usda and .usdc are read";
+            let known = ".bvh, .amc, .tof, .glb, .gltf, .csv, .abc, .usd, .usda, .usdc, .pc2 and .mdd are read";
             Err(named(Error::new(format!("motion in a .{other} file: {known}"))))
         }
     }

@@ -33,9 +33,7 @@ impl Format {
             _ if exchange::is_usd(path) => Some(Self::Usd),
             _ if exchange::is_alembic(path) => Some(Self::Alembic),
             "glb" => Some(Self::Gltf),
-            "pc2" => Some(Self::Points(Kind::Pc2)),
-            "mdd" => Some(Self::Points(Kind::Mdd)),
-            _ => None,
+            _ => Kind::of(path).map(Self::Points),
         }
     }
 }

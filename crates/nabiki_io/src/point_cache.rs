@@ -1,6 +1,8 @@
-//! Point caches, which other programs lay over a mesh with the same points: PC2 of 3ds Max, and MDD of LightWave.
+//! Point caches, which programs lay over a mesh with the same points: PC2 of 3ds Max, and MDD of LightWave.
 //!
-//! Every frame holds every point in the world of the file, strand after strand, root first.
+//! Of hair, every frame holds every point in the world of the file, strand after strand, root first.
+
+mod read;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -9,6 +11,9 @@ use glam::{DAffine3, Vec3};
 use nabiki::Strands;
 use nabiki_exchange::{Export, FrameSink};
 use nabiki_file::PartFile;
+
+pub(crate) use read::PointFrames;
+pub use read::is_point_cache;
 
 /// A kind of point cache.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::{Affine3A, Vec3, Vec3A};
 use nabiki::Pose;
+use nabiki::strands::bounds;
 use nabiki_exchange::{BOUND_SHAPE, FIRST_SHAPE};
 
 use crate::error::{Error, Result};
@@ -13,6 +14,7 @@ use crate::input::{self, MOST_BINARY_BYTES};
 use crate::mesh::glb::{self, STILL_SHAPE};
 use crate::mesh::{self, Welded};
 use crate::placement::Placement;
+use crate::point_cache::{PointFrames, is_point_cache};
 
 /// Whether meshes of a file bend: their points, joints or morphs move. `groups` chooses meshes as in [`mesh::read`], `clip` an
 /// animation of a glTF. Meshes that only go as a whole do not.
@@ -27,24 +29,53 @@ pub fn bends(path: &Path, groups: &[String], clip: &str) -> Result<bool> {
         let bytes = input::read(path, MOST_BINARY_BYTES)?;
         return glb::bends(&bytes, path.parent(), groups, clip).map_err(|e| e.in_file(path));
     }
+    if is_point_cache(path) {
+        return points_bend(path).map_err(|e| e.in_file(path));
+    }
     Ok(false)
 }
 
-/// The vertices of a mesh as [`mesh::import`] has them (head space, cm), in the frames 0 to `last`. The head's motion is of the
-/// same file: its poses, and the file's times of frame 0 and between two frames (s). `frame` takes one frame after another.
+/// Whether the distances between points of a cache change, by more than their rounding. Some of them tell.
+fn points_bend(path: &Path) -> Result<bool> {
+    const SOME: usize = 500;
+    let mut cache = PointFrames::open(path)?;
+    let first = cache.frame(0)?;
+    let farthest = |of: &[Vec3]| {
+        let [low, high] = bounds(of);
+        (low.abs().max(high.abs()).max_element(), low.distance(high))
+    };
+    let (away, size) = farthest(&first);
+    let step = first.len().div_ceil(SOME);
+    for n in 1..cache.frames() {
+        let now = cache.frame(n)?;
+        // A few roundings of the places, and less than can be seen.
+        let most = 4.0 * f32::EPSILON * away.max(farthest(&now).0) + 1e-5 * size;
+        let apart = |of: &[Vec3], v: usize| [0, of.len() / 3, of.len() / 2].map(|other| of[v].distance(of[other]));
+        let differs = |v: usize| apart(&first, v).into_iter().zip(apart(&now, v)).any(|(a, b)| (a - b).abs() > most);
+        if (0..first.len()).step_by(step).any(differs) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The vertices of a mesh as [`mesh::import`] has them (head space, cm), in the frames 0 to `last`. The motion is in `path`, the
+/// mesh's own file or a point cache: the head's poses, and the file's times of frame 0 and between two frames (s). `frame` takes
+/// one frame after another. `rate`: frames per second of a cache that counts frames.
 ///
 /// # Errors
 /// If the file is invalid, or its vertices change their number.
 pub fn each_frame(
     path: &Path,
+    mesh: &Path,
     (groups, clip): (&[String], &str),
     placement: &Placement,
-    (poses, [first, step]): (&[Pose], [f64; 2]),
+    (poses, [first, step], rate): (&[Pose], [f64; 2], f64),
     last: usize,
     frame: &mut dyn FnMut(Vec<Vec3>) -> Result<()>,
 ) -> Result<()> {
     let named = |e: Error| e.in_file(path);
-    let welded = mesh::welded_from(&mesh::read(path, groups)?.positions);
+    let welded = mesh::welded_from(&mesh::read(mesh, groups)?.positions);
     let head_from_file = placement.head_from_file();
     let placed = |n: usize, all: &[Vec3]| -> Result<Vec<Vec3>> {
         let Welded { vertices, kept } = &welded;
@@ -70,6 +101,12 @@ pub fn each_frame(
     };
     let times: Vec<f64> = (0..=last).map(|n| first + n as f64 * step).collect();
     let take = &mut |n: usize, all: Vec<Vec3>| frame(placed(n, &all)?);
+    if is_point_cache(path) {
+        let mut cache = PointFrames::open(path)?;
+        let of_cache = cache.times(rate);
+        let mut frames = times.iter().enumerate();
+        return frames.try_for_each(|(n, &time)| take(n, cache.at(&of_cache, time)?)).map_err(named);
+    }
     if mesh::is_gltf(path) {
         let bytes = input::read(path, MOST_BINARY_BYTES)?;
         return glb::each_bent(&bytes, path.parent(), groups, clip, &times, take).map_err(named);

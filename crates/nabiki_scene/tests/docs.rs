@@ -81,6 +81,14 @@ fn stand_ins(scene: &Scene, bust: &BuiltScene) {
             sink.finish().unwrap();
         }
     }
+    for aim in scene.aims.iter().filter(|aim| !aim.file.as_os_str().is_empty()) {
+        let export = exchange::export(&bust.groom.hair, 24.0, None);
+        let mut sink = moving::sink(&scene.resolve(&aim.file), export, None, ChainOptions::default()).unwrap();
+        for _ in 0..60 {
+            sink.frame(bust.strands(), &DAffine3::IDENTITY).unwrap();
+        }
+        sink.finish().unwrap();
+    }
     for body in &scene.bodies {
         if body.capsule.is_none() {
             std::fs::write(scene.resolve(&body.mesh), TETRAHEDRON).unwrap();

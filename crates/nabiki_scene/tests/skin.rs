@@ -146,3 +146,91 @@ fn skin_whose_vertices_change_their_number_is_refused_with_the_frame() {
     let refused = scene.build(Shown::All).unwrap_err().to_string();
     assert!(refused.contains("face.usda: frame 6 of the motion: its meshes have 339 vertices, and 340"), "{refused}");
 }
+
+/// A point cache of the head's vertices in each frame: PC2, as its makers describe it.
+fn cache(at: impl Fn(usize, usize, usize) -> DVec3) -> Vec<u8> {
+    let points = (ROWS + 1) * COLUMNS;
+    let mut bytes = b"POINTCACHE2\0".to_vec();
+    for word in [1, points as i32] {
+        bytes.extend(word.to_le_bytes());
+    }
+    for number in [0.0_f32, 1.0] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.extend((LAST as i32 + 1).to_le_bytes());
+    for n in 0..=LAST {
+        for (row, column) in (0..=ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row, column))) {
+            bytes.extend(at(row, column, n).as_vec3().to_array().into_iter().flat_map(f32::to_le_bytes));
+        }
+    }
+    bytes
+}
+
+/// The scene of the head, moved by a point cache.
+fn cached(folder: &Path, bytes: &[u8]) -> Result<nabiki_scene::BuiltScene, String> {
+    made(folder, false).unwrap();
+    std::fs::write(folder.join("face.pc2"), bytes).unwrap();
+    let mut scene = Scene::load(&folder.join("scene.toml"), &[]).unwrap();
+    let motion = scene.head.motion.as_mut().unwrap();
+    *motion = nabiki_io::motion::MotionSource { file: "face.pc2".into(), ..Default::default() };
+    scene.build(Shown::All).map_err(|e| e.to_string())
+}
+
+/// The points of a mesh in a cache are its skin, however the mesh itself is stored.
+#[test]
+fn a_point_cache_bends_the_mesh_that_it_is_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let built = cached(folder.path(), &cache(vertex)).unwrap();
+    let summary = SceneSummary::of(&built);
+    assert_eq!(summary.skin.as_deref(), Some("its skin bends, and carries 60 roots on 60 triangles"));
+    for n in 0..=LAST {
+        let world = built.pose(n as u32).world_from_head();
+        let skin = built.skin(n as u32).unwrap();
+        for (row, column) in roots() {
+            let there = built.model.placement.head_from_file().transform_vector3(vertex(row, column, n).as_vec3());
+            let p = world.inverse().transform_point3(there);
+            let nearest = skin.iter().map(|v| v.distance(p)).fold(f32::INFINITY, f32::min);
+            assert!(nearest < 1e-4, "frame {n}: {nearest} cm");
+        }
+    }
+}
+
+/// A cache of a mesh that only goes as a whole moves the head, and no skin.
+#[test]
+fn a_point_cache_of_a_rigid_mesh_is_a_motion() {
+    let folder = tempfile::tempdir().unwrap();
+    let turned = |row, column, n: usize| {
+        let turn = glam::DQuat::from_rotation_y(0.2 * n as f64);
+        turn * vertex(row, column, 0) + DVec3::new(4.0 * n as f64, 0.0, 0.0)
+    };
+    let built = cached(folder.path(), &cache(turned)).unwrap();
+    assert!(built.skin(3).is_none());
+    for n in 0..=LAST {
+        let world = built.pose(n as u32).world_from_head();
+        for (row, column) in roots() {
+            let to_head = built.model.placement.head_from_file();
+            let rest = to_head.transform_point3(vertex(row, column, 0).as_vec3());
+            let there = to_head.transform_vector3(turned(row, column, n).as_vec3());
+            assert!(world.transform_point3(rest).distance(there) < 1e-4, "frame {n}");
+        }
+    }
+}
+
+#[test]
+fn a_point_cache_of_another_mesh_or_cut_off_is_refused() {
+    let whole = cache(vertex);
+    let said = |bytes: &[u8]| cached(tempfile::tempdir().unwrap().path(), bytes).map(|_| ()).unwrap_err();
+    let line = said(&whole[..whole.len() - 1]);
+    assert!(line.contains("face.pc2: has 28591 bytes, but 7 frames of 340 points take 28592: it is cut off"), "{line}");
+    let mut fewer = whole.clone();
+    fewer[16..20].copy_from_slice(&339_i32.to_le_bytes());
+    let line = said(&fewer);
+    assert!(
+        line.contains("face.pc2: holds 339 points, but ") && line.contains("give the cache of this mesh"),
+        "{line}"
+    );
+    let line = said(b"POINTCACHE2\0");
+    assert!(line.contains("face.pc2: ends within its header: the file is cut off"), "{line}");
+    let line = said(&[&whole[..28], &i32::MAX.to_le_bytes()[..]].concat());
+    assert!(line.contains("it is cut off"), "{line}");
+}

@@ -169,10 +169,12 @@ pub enum Kind {
     },
     /// A colour by name, pigment or as it looks.
     HairColour,
-    /// A number of at least 0, or a list of them from root to tip.
+    /// A number, or a list of them from root to tip.
     Profile {
         /// Units of the world that each may have.
         units: &'static [&'static str],
+        /// At least this, at least 0.
+        least: f64,
         /// At most this.
         most: f64,
         /// What a drag by one point adds.
@@ -216,7 +218,10 @@ pub const HAIR_FILES: &[&str] = &["hair", "tfx", "obj", "usda", "usdc", "usd", "
 /// Files of surfaces.
 pub const MESH_FILES: &[&str] = &["obj", "glb", "gltf", "ply", "tfxmesh", "usda", "usdc", "usd", "abc"];
 /// Files of motion.
-pub const MOTION_FILES: &[&str] = &["bvh", "amc", "tof", "glb", "gltf", "csv", "usda", "usdc", "usd", "abc"];
+pub const MOTION_FILES: &[&str] =
+    &["bvh", "amc", "tof", "glb", "gltf", "csv", "usda", "usdc", "usd", "abc", "pc2", "mdd"];
+/// Files of shapes that hair is led to.
+pub const AIM_FILES: &[&str] = &["usda", "usdc", "usd", "abc", "nabiki", "hair", "tfx", "obj"];
 
 impl Group {
     const fn new(title: &'static str, table: &'static str, help: &'static str, keys: &'static [&'static str]) -> Self {

@@ -94,7 +94,8 @@ fn both_ends_of_what_a_field_takes_are_in_the_range_of_the_scene() {
             let ends = match setting.kind {
                 Kind::Number { least, most, .. } => [least, most].map(Value::Float),
                 Kind::Whole { least, most } => [least, most].map(Value::Integer),
-                Kind::Profile { most, .. } | Kind::Amount { most, .. } => [0.0, most].map(Value::Float),
+                Kind::Profile { least, most, .. } => [least, most].map(Value::Float),
+                Kind::Amount { most, .. } => [0.0, most].map(Value::Float),
                 _ => continue,
             };
             if BOUND_BY_ANOTHER.contains(&format!("{}.{}", group.table, setting.key).as_str()) {

@@ -28,9 +28,14 @@ class Body:
     """(rotation, shift) in each frame, about the origin of the sample, from where it is in the first."""
     shape: int
     """A number for its mesh, as it is in its own space."""
+    bent: list = None
+    """Its points in each frame, about the origin of the sample; None for what keeps its shape."""
 
     def moves(self):
-        return any((turn != np.eye(3)).any() or shift.any() for turn, shift in self.ways)
+        return self.bends() or any((turn != np.eye(3)).any() or shift.any() for turn, shift in self.ways)
+
+    def bends(self):
+        return self.bent is not None and any((points != self.bent[0]).any() for points in self.bent)
 
 
 @dataclass
@@ -224,9 +229,10 @@ class Reader:
         self.origin = np.round(0.5 * (corners.min(0) + corners.max(0)), 3)
         self.bent = not self.bone and meshes.bends(head)
         start = carried(self.carrier.evaluated_get(graph), self.bone)
-        self.at_first = self._bent_vertices(graph) if self.bent else None
         placed = meshes.placed(points, faces, to_world, self.origin)
         self.head_body = Body(head.name, *placed, [start], [(np.eye(3), np.zeros(3))], shape_of(points, faces))
+        if self.bent:
+            self.head_body.bent = [self.head_body.points.astype(np.float32)]
         own = thing.evaluated_get(graph)
         self.hair = hair_module.read(own, meshes.matrix(own.matrix_world), self.origin, unit(scene))
         if self.hair.left_out:
@@ -290,18 +296,24 @@ class Reader:
         check_enabled(self.layer, other)
         evaluated = other.evaluated_get(graph)
         to_world = meshes.matrix(evaluated.matrix_world)
-        if meshes.bends(other):
-            self.notes.append(f'"{other.name}" deforms: the hair collides with its shape of the first frame')
         points, faces = meshes.triangles(evaluated, "the body")
         placed = meshes.placed(points, faces, to_world, self.origin)
-        return Body(other.name, *placed, [to_world], [(np.eye(3), np.zeros(3))], shape_of(points, faces))
+        body = Body(other.name, *placed, [to_world], [(np.eye(3), np.zeros(3))], shape_of(points, faces))
+        if meshes.bends(other):
+            body.bent = [body.points.astype(np.float32)]
+        return body
 
-    def _bent_vertices(self, graph):
-        evaluated = self.head.evaluated_get(graph)
-        to_world = meshes.matrix(evaluated.matrix_world)
-        points = meshes.vertices(evaluated)
-        # A few thousand say as much as all.
-        return points[:: max(1, len(points) // 4000)] @ to_world[:3, :3].T + to_world[:3, 3] - self.origin
+    def _bend(self, body, other, graph, what, group=""):
+        """Adds the shape of a mesh that bends, and the rigid way that fits it best."""
+        evaluated = other.evaluated_get(graph)
+        points, faces = meshes.triangles(evaluated, what, group)
+        placed, faces = meshes.placed(points, faces, meshes.matrix(evaluated.matrix_world), self.origin)
+        if len(placed) != len(body.points) or (faces != body.faces).any():
+            frame = self.scene.frame_current
+            raise Mistake(f'{what} "{other.name}" has other faces in frame {frame}: hair needs a mesh that keeps its vertices and faces')
+        body.bent.append(placed.astype(np.float32))
+        same = (body.bent[-1] == body.bent[0]).all()
+        body.ways.append((np.eye(3), np.zeros(3)) if same else meshes.fitted(body.points, placed)[:2])
 
     def go_on(self, graph):
         """Reads one more frame."""
@@ -309,21 +321,16 @@ class Reader:
         now = carried(self.carrier.evaluated_get(graph), self.bone)
         body.matrices.append(now)
         if self.bent:
-            points = self._bent_vertices(graph)
-            if len(points) != len(self.at_first):
-                raise Mistake(f'the head "{self.head.name}" has another number of vertices in some frames: set its bone in Nabiki > Head Bone')
-            turn, shift, left = meshes.fitted(self.at_first, points)
-            size = np.ptp(self.at_first, axis=0).max()
-            if left > 0.01 * size:
-                raise Mistake(f'the head "{self.head.name}" deforms too much for a rigid head: set its bone in Nabiki > Head Bone')
-            same = (points == self.at_first).all()
-            body.ways.append((np.eye(3), np.zeros(3)) if same else (turn, shift))
+            self._bend(body, self.head, graph, "the head", self.thing.nabiki.head_group)
         else:
             body.ways.append(meshes.rigid(body.matrices[0], now, self.origin, f'the head "{self.head.name}"'))
         for other, body in zip(self.colliders, self.bodies, strict=True):
             now = meshes.matrix(other.evaluated_get(graph).matrix_world)
             body.matrices.append(now)
-            body.ways.append(meshes.rigid(body.matrices[0], now, self.origin, f'the body "{other.name}"'))
+            if body.bent is not None:
+                self._bend(body, other, graph, "the body")
+            else:
+                body.ways.append(meshes.rigid(body.matrices[0], now, self.origin, f'the body "{other.name}"'))
         for other, effector in zip(self.fields, self.effectors, strict=True):
             effector.frames.append(fields.Now.of(other.evaluated_get(graph)))
 

@@ -56,6 +56,10 @@ def write(sample, plain, folder, apart=()):
         return file.as_posix()
 
     def track(body, file):
+        if body.bends():
+            file = file.with_suffix(".pc2")
+            _write_points(file, body.bent)
+            return {"file": file.as_posix()}
         _write_track(file, body.ways, sample.unit_cm, sample.rate)
         return {"file": file.as_posix(), "up": "+z", "facing": plain["facing"]}
 
@@ -205,6 +209,12 @@ def _write_weighted_hair(file, hair, weights):
     text += [f'    float[] widths = {row(2 * hair.radii)} ( interpolation = "vertex" )']
     text += [f'    float[] primvars:{name} = {row(of)} ( interpolation = "uniform" )' for name, of in weights.items()]
     file.write_text("\n".join([*text, "}", ""]), encoding="ascii")
+
+
+def _write_points(file, frames):
+    """A point cache, PC2: the points of a mesh in every frame."""
+    header = struct.pack("<12siiffi", b"POINTCACHE2\0", 1, len(frames[0]), 0.0, 1.0, len(frames))
+    file.write_bytes(header + b"".join(points.astype("<f4").tobytes() for points in frames))
 
 
 def _write_track(file, ways, unit_cm, rate):

@@ -7,12 +7,13 @@ use nabiki::{settings, smoothing, words};
 use crate::axis::Axis;
 use crate::error::{Error, Result};
 use crate::kind::extension;
+use crate::point_cache::is_point_cache;
 
 settings! {
     /// The file that moves the head, and what the file does not contain.
     pub struct MotionSource {
-        /// The motion: a .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv. A .csv has the
-        /// columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw.
+        /// The motion: a .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, a .csv, or a .pc2 or .mdd with
+        /// the mesh's points. A .csv has the columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw.
         pub file: PathBuf = PathBuf::new() => "File";
         /// Skeleton file of the motion: the .asf of an .amc, or the .tof with the skeleton of a .tof animation. Other
         /// formats have none.
@@ -32,7 +33,8 @@ settings! {
         /// too. A bone of an .amc is unturned in the rest pose of the .asf, a joint of a .tof when its axes are those
         /// of the world.
         pub facing: Option<Axis> = None => "Facing", open "what the file says";
-        /// Sample rate of the file. Required for most .amc files; all other formats contain it.
+        /// Sample rate of the file. Required for most .amc files; a .pc2 has that of the scene unless you set this. All
+        /// other formats contain it.
         pub frames_per_second: Option<f64> = None => "Sample rate", unit "per second", above 0.0, open "what the file says";
         /// Number of samples to drop at the start, for example a T-pose. Not for .glb and .gltf.
         pub skip: usize = 0 => "Skip", unit "samples";
@@ -87,10 +89,12 @@ impl MotionSource {
     pub(super) fn check(&self) -> Result<()> {
         let ending = extension(&self.file);
         let is_clip = matches!(ending.as_str(), "glb" | "gltf");
+        let is_cache = is_point_cache(&self.file);
         let useless = [
             (self.skeleton.is_some() && !self.has_skeleton(), "skeleton"),
-            (self.node != Self::default().node && ending == "csv", "node"),
-            (self.frames_per_second.is_some() && ending != "amc", "frames_per_second"),
+            (self.node != Self::default().node && (ending == "csv" || is_cache), "node"),
+            (self.frames_per_second.is_some() && ending != "amc" && ending != "pc2", "frames_per_second"),
+            (self.start_at_origin && is_cache, "start_at_origin"),
             (!self.clip.is_empty() && !is_clip, "clip"),
             (self.skip > 0 && is_clip, "skip"),
             (self.positions != Interpolation::Cubic && is_clip, "positions"),

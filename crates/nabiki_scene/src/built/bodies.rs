@@ -27,7 +27,7 @@ pub(crate) struct BuiltBody {
     /// Phrases about unused data of the meshes in its file.
     pub unread: Vec<String>,
     pub way: BodyWay,
-    /// Its file; none for a capsule.
+    /// The file of its motion, if that may bend it.
     pub file: Option<PathBuf>,
     /// Its vertices in each frame, from frame 0 on; none for a body that does not bend.
     pub frames: Vec<Vec<Vec3>>,
@@ -97,25 +97,29 @@ impl Stage for BuiltBody {
                 (Some(file), placement, mesh, report.unread, OnceLock::new())
             }
         };
-        let mut frames = Vec::new();
+        let (mut frames, mut bending) = (Vec::new(), None);
         let way = match &settings.motion {
             _ if settings.with_head => BodyWay::WithHead,
             None => BodyWay::InWorld(Arc::new([Pose::STILL])),
             Some(source) => {
                 let (scene, source) = (scene.clone(), source.clone());
-                let motion = WayInputs { file: scene, source, mesh: file.clone(), placement, frame_rate: *frame_rate };
+                let groups = settings.groups.clone();
+                let rate = source.frames_per_second.unwrap_or(*frame_rate);
+                let motion =
+                    WayInputs { file: scene, source, mesh: file.clone(), groups, placement, frame_rate: *frame_rate };
                 let read = motion.read(&format!("{name}.motion"), at)?;
-                if let Some(file) = motion.of_mesh() {
+                if let Some(files) = motion.of_mesh() {
                     let (which, clip) = (&settings.groups, motion.source.clip.as_str());
-                    let times = (&read.poses[..], read.times);
-                    frames = frames_of(file, (which, clip), &placement, times, (*last, mesh.positions.len()), at)?;
+                    let times = (&read.poses[..], read.times, rate);
+                    bending = Some(files.motion.clone());
+                    frames = frames_of(&files, (which, clip), &placement, times, (*last, mesh.positions.len()), at)?;
                 }
                 BodyWay::InWorld(read.poses.into())
             }
         };
         let mut unread: Vec<String> = unread;
         unread.retain(|line| frames.is_empty() || !says_rigid(line));
-        Ok(Self { inputs, mesh, file, unread, way, frames, placement, shape, bending: Sampled::default() })
+        Ok(Self { inputs, mesh, file: bending, unread, way, frames, placement, shape, bending: Sampled::default() })
     }
 }
 

@@ -92,7 +92,7 @@ impl BuiltScene {
             add_pose(&mut digest, &self.way.poses[frame]);
         }
         if let Some(file) = self.bent_head.file() {
-            add_skin(&mut digest, file, &self.bent_head.frames)?;
+            add_skin(&mut digest, &file, &self.bent_head.frames)?;
         }
         Ok(digest.finish())
     }

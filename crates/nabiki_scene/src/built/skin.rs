@@ -1,6 +1,6 @@
 //! The skin of a head that bends: read with the head's motion, from the file that holds both.
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec3;
@@ -14,7 +14,7 @@ use nabiki_io::{Placement, skin};
 use super::groom::Groom;
 use super::model::Model;
 use super::stage::{At, Stage};
-use super::way::Way;
+use super::way::{SkinFiles, Way};
 use crate::error::{Error, Result};
 use crate::memory;
 use crate::scene::{HeadSource, Scene};
@@ -60,22 +60,22 @@ impl Stage for Bent {
     fn make(inputs: BentInputs, at: At<'_>) -> Result<Self> {
         let BentInputs { model, way, last } = &inputs;
         let mut frames = Vec::new();
-        if let (Some((file, clip, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source) {
+        if let (Some((files, clip, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source) {
             let vertices = model.head.mesh.positions.len();
             let groups = &head.groups;
-            frames =
-                frames_of(file, (groups, clip), &model.placement, (&way.poses, times), (*last as u32, vertices), at)?;
+            let motion = (&way.poses[..], times, way.rate());
+            frames = frames_of(&files, (groups, clip), &model.placement, motion, (*last as u32, vertices), at)?;
         }
         Ok(Self { inputs, frames, body: Sampled::default() })
     }
 }
 
-/// The vertices of a mesh in each frame up to `last` (its own space, cm), if it bends; else none. The file holds the motion, too.
+/// The vertices of a mesh in each frame up to `last` (its own space, cm), if it bends; else none.
 pub(super) fn frames_of(
-    file: &Path,
+    SkinFiles { mesh, motion: file }: &SkinFiles<'_>,
     (groups, clip): (&[String], &str),
     placement: &Placement,
-    motion: (&[Pose], [f64; 2]),
+    motion: (&[Pose], [f64; 2], f64),
     (last, vertices): (u32, usize),
     at: At<'_>,
 ) -> Result<Vec<Vec<Vec3>>> {
@@ -89,7 +89,7 @@ pub(super) fn frames_of(
         return Err(nabiki_io::Error::new(line).in_file(file).into());
     }
     let mut wanted = true;
-    let read = skin::each_frame(file, (groups, clip), placement, motion, last as usize, &mut |frame| {
+    let read = skin::each_frame(file, mesh, (groups, clip), placement, motion, last as usize, &mut |frame| {
         wanted = wanted && (at.goes_on)(0.0);
         frames.push(frame);
         if wanted { Ok(()) } else { Err(nabiki_io::Error::new("not wanted")) }
@@ -103,8 +103,8 @@ pub(super) fn frames_of(
 
 impl Bent {
     /// The file that it is read from; none for a head that does not bend.
-    pub fn file(&self) -> Option<&Path> {
-        self.inputs.way.of_mesh().map(|(file, ..)| file).filter(|_| !self.frames.is_empty())
+    pub fn file(&self) -> Option<PathBuf> {
+        self.inputs.way.of_mesh().map(|(files, ..)| files.motion).filter(|_| !self.frames.is_empty())
     }
 
     /// The head as a body that bends; `None` for one that does not.

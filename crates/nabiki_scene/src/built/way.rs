@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use nabiki::Pose;
 use nabiki_io::motion::{self, HeadMotion, MotionSource};
+use nabiki_io::point_cache::is_point_cache;
 use nabiki_io::{Placement, exchange, mesh};
 
 use super::model::Model;
 use super::stage::{At, Stage};
 use crate::error::Result;
-use crate::scene::{Scene, resolved};
+use crate::scene::{HeadSource, Scene, resolved};
 
 /// The poses of the head in each frame.
 #[derive(Debug)]
@@ -34,6 +35,8 @@ pub(super) struct WayInputs {
     pub source: MotionSource,
     /// The file of the moved mesh, and its placement.
     pub mesh: Option<PathBuf>,
+    /// Its groups.
+    pub groups: Vec<String>,
     pub placement: Placement,
     /// Frames per second.
     pub frame_rate: f64,
@@ -46,6 +49,10 @@ impl WayInputs {
             file: scene.file().to_owned(),
             source: source.clone(),
             mesh: model.file(),
+            groups: match &scene.head.source {
+                HeadSource::Imported(head) => head.groups.clone(),
+                HeadSource::Builtin => Vec::new(),
+            },
             placement: model.placement,
             frame_rate: scene.frame_rate(),
         })
@@ -60,14 +67,27 @@ impl WayInputs {
             skeleton: self.source.skeleton.as_ref().map(|file| there("skeleton", file)).transpose()?,
             ..self.source.clone()
         };
-        let of_mesh = self.mesh.as_ref() == Some(&source.file) && holds_scenes(&source.file);
+        let of_points = is_point_cache(&source.file);
+        let of_mesh = of_points || self.mesh.as_ref() == Some(&source.file) && holds_scenes(&source.file);
         let facing = source.facing.or(of_mesh.then_some(self.placement.facing));
         let unit_cm = source.unit_cm.or(of_mesh.then_some(100.0 * self.placement.unit.metres()));
-        let source = MotionSource { facing, unit_cm, ..source };
-        let mut motion = motion::read(&source, self.frame_rate).map_err(|e| e.below(key))?;
+        let up = source.up.or(of_points.then_some(self.placement.up));
+        let source = MotionSource { facing, unit_cm, up, ..source };
+        let read = match &self.mesh {
+            Some(mesh) if of_points => {
+                let rest = mesh::read(mesh, &self.groups)?.positions;
+                motion::of_points(&source, mesh, &rest, self.frame_rate)
+            }
+            None if of_points => {
+                let line = "moves the points of a mesh, and there is none: give the mesh that it is of";
+                Err(nabiki_io::Error::new(line).in_file(&source.file))
+            }
+            _ => motion::read(&source, self.frame_rate),
+        };
+        let mut motion = read.map_err(|e| e.below(key))?;
         motion.bound = motion.bound.filter(|_| of_mesh);
         let origin = self.placement.origin_in_world().as_vec3();
-        Ok(if source.bind_at_start { motion.bound_at(origin) } else { motion })
+        Ok(if source.bind_at_start || of_points { motion.bound_at(origin) } else { motion })
     }
 }
 
@@ -77,11 +97,23 @@ pub(crate) fn holds_scenes(file: &Path) -> bool {
 }
 
 impl WayInputs {
-    /// The file of the mesh, if the motion is of the same one and carries the mesh as it lies there.
-    pub fn of_mesh(&self) -> Option<&Path> {
+    /// The files of the mesh and of its motion, if that may bend it: a point cache, or the mesh's own file, which carries it as it
+    /// lies there.
+    pub fn of_mesh(&self) -> Option<SkinFiles<'_>> {
+        let motion = resolved(&self.file, &self.source.file);
+        if let Some(mesh) = self.mesh.as_deref().filter(|_| is_point_cache(&motion)) {
+            return Some(SkinFiles { mesh, motion });
+        }
         let mesh = self.mesh.as_deref().filter(|_| self.source.bind_at_start)?;
-        (resolved(&self.file, &self.source.file) == *mesh && holds_scenes(mesh)).then_some(mesh)
+        (motion == *mesh && holds_scenes(mesh)).then_some(SkinFiles { mesh, motion })
     }
+}
+
+/// Where the shape of a mesh is, and where its motion.
+#[derive(Clone, Debug)]
+pub(super) struct SkinFiles<'a> {
+    pub mesh: &'a Path,
+    pub motion: PathBuf,
 }
 
 impl Stage for Way {
@@ -105,9 +137,14 @@ impl Stage for Way {
 }
 
 impl Way {
-    /// The file that both mesh and motion are of, its clip, and its times of frame 0 and between two frames (s), if the mesh is carried
-    /// as it lies there. Its skin may bend then.
-    pub(super) fn of_mesh(&self) -> Option<(&Path, &str, [f64; 2])> {
+    /// Frames per second of a motion that counts frames.
+    pub(super) fn rate(&self) -> f64 {
+        let given = |inputs: &WayInputs| inputs.source.frames_per_second.unwrap_or(inputs.frame_rate);
+        self.inputs.as_ref().map_or(24.0, given)
+    }
+
+    /// The files of mesh and motion, the clip, and the motion's times of frame 0 and between two frames (s), if its skin may bend.
+    pub(super) fn of_mesh(&self) -> Option<(SkinFiles<'_>, &str, [f64; 2])> {
         let inputs = self.inputs.as_ref()?;
         Some((inputs.of_mesh()?, inputs.source.clip.as_str(), self.times))
     }

@@ -191,8 +191,12 @@ impl Field<'_> {
             ),
             Kind::Colour { linear } => self.colour(ui, value, linear, commands),
             Kind::HairColour => self.hair_colour(ui, value, commands),
-            Kind::Profile { units, most, step } => self.profile(ui, value, Taken { units, most, step }, commands),
-            Kind::Amount { units, most, step } => self.amount(ui, value, Taken { units, most, step }, commands),
+            Kind::Profile { units, least, most, step } => {
+                self.profile(ui, value, Taken { units, least, most, step }, commands);
+            }
+            Kind::Amount { units, most, step } => {
+                self.amount(ui, value, Taken { units, least: 0.0, most, step }, commands)
+            }
             Kind::Ellipsoid => self.ellipsoid(ui, value, commands),
             Kind::File(endings) => self.file(ui, value, endings, commands),
             // Of intervals, which have fields of their own.

@@ -2,7 +2,7 @@
 
 use nabiki::setting::{self as declared, Datum, Range, plain};
 
-use super::{HAIR_FILES, Kind, MESH_FILES, MOTION_FILES, Row};
+use super::{AIM_FILES, HAIR_FILES, Kind, MESH_FILES, MOTION_FILES, Row};
 
 /// What a field takes where the schema has no end: what the scene itself can hold.
 const ENDLESS: f64 = f32::MAX as f64;
@@ -35,7 +35,9 @@ fn kind(table: &str, key: &str, found: &declared::Setting) -> Kind {
         declared::Kind::List(declared::Kind::Table(_)) => Kind::Envelope,
         declared::Kind::List(of) => Kind::List { whole: matches!(of, declared::Kind::Whole { .. }) },
         declared::Kind::Path => Kind::File(endings(table, key)),
-        declared::Kind::OneOf([number, declared::Kind::List(_)]) => Kind::Profile { units: units(number), most, step },
+        declared::Kind::OneOf([number, declared::Kind::List(_)]) => {
+            Kind::Profile { units: units(number), least: least.max(0.0), most, step }
+        }
         declared::Kind::OneOf([declared::Kind::Number, _]) if !units(&found.kind).is_empty() => {
             Kind::Amount { units: units(&found.kind), most, step }
         }
@@ -70,6 +72,8 @@ fn endings(table: &str, key: &str) -> &'static [&'static str] {
         (_, "skeleton") => &["asf", "tof"],
         ("hair", _) => HAIR_FILES,
         (_, "mesh") => MESH_FILES,
+        (_, "map") => &["png"],
+        ("aim", _) => AIM_FILES,
         _ => MOTION_FILES,
     }
 }

@@ -58,18 +58,19 @@ impl Amount {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Taken {
     pub units: &'static [&'static str],
+    pub least: f64,
     pub most: f64,
     pub step: f64,
 }
 
 impl Taken {
     fn field<'a>(&self, what: &'a str, amount: Amount) -> Number<'a> {
-        let (most, step, unit) = match amount.unit {
-            None => (self.most, self.step, ""),
-            Some(unit) => (MOST, 0.01, unit),
+        let (least, most, step, unit) = match amount.unit {
+            None => (self.least, self.most, self.step, ""),
+            Some(unit) => (0.0, MOST, 0.01, unit),
         };
         let step = step.max(amount.number.abs() * 0.005);
-        Number { range: 0.0..=most, step, unit, ..Number::of(what) }
+        Number { range: least..=most, step, unit, ..Number::of(what) }
     }
 }
 
