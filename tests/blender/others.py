@@ -257,6 +257,12 @@ def test_roots_ride_on_a_head_that_a_shape_key_bends(command, shared):
     head.data.calc_loop_triangles()
     faces = [tuple(triangle.vertices) for triangle in head.data.loop_triangles]
     tree = BVHTree.FromPolygons(rest, faces)
+    # Roots of the groom lie on a ball, and faces are flat: put them on the faces.
+    points = scenes.positions(hair.data).copy()
+    to_head = head.matrix_world.inverted() @ hair.matrix_world
+    for number in range(0, len(points), scenes.POINTS):
+        points[number] = to_head.inverted() @ tree.find_nearest(to_head @ Vector(points[number]))[0]
+    hair.data.attributes["position"].data.foreach_set("vector", points.ravel())
     preview = motions.simulated(hair, 30)
     frames = motions.all_frames(preview)
     starts = np.arange(0, len(frames[0]), scenes.POINTS)

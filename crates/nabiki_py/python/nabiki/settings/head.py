@@ -121,8 +121,9 @@ class MotionSource(Table):
 
     @property
     def file(self) -> str:
-        """The motion: a .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, or a .csv. A .csv has the
-        columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw. Path; default: none.
+        """The motion: a .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, a .csv, or a .pc2 or .mdd with
+        the mesh's points. A .csv has the columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw. Path; default:
+        none.
         """
         value: str = self._get('file')
         return value
@@ -204,8 +205,8 @@ class MotionSource(Table):
 
     @property
     def frames_per_second(self) -> float | None:
-        """Sample rate of the file. Required for most .amc files; all other formats contain it. Number above 0 (per
-        second); default: what the file says.
+        """Sample rate of the file. Required for most .amc files; a .pc2 has that of the scene unless you set this. All
+        other formats contain it. Number above 0 (per second); default: what the file says.
         """
         value: float | None = self._get('frames_per_second')
         return value
