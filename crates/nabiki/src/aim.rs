@@ -23,7 +23,7 @@ settings! {
     pub struct Lead where ends_after_it_begins {
         /// Strength of the pull, in F: a limp strand settles along the sum of this in the direction of the aim and all
         /// other forces.
-        pub strength: f32 = 300.0 => "Strength", least 0.0;
+        pub strength: f32 = 300.0 => "Strength", least 0.0, most 1e9;
         /// First frame of the full strength.
         pub from: u32 = 0 => "From", unit "frame";
         /// Last frame of the full strength. Without it, the aim never ends.

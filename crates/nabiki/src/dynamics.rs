@@ -198,7 +198,7 @@ impl Dynamics {
     }
 
     /// The same motion in seconds, to first order, at another step rate (frames per second). With R times as many
-    /// steps: the time step becomes 1 / R of its value; settling, disturbances and [`Motion::frames`] get R times as
+    /// steps: the time step becomes 1 / R of its value; settling, aims, disturbances and [`Motion::frames`] get R times as
     /// many frames; and cohesion per cm per frame becomes R times as strong. Motions of bodies and skin
     /// are interpolated.
     /// Forces, stiffness, hold, gravity, pressure, drag and contact stay the same. Settings of fields that count frames

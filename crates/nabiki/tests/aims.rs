@@ -256,5 +256,5 @@ fn what_no_aim_can_be_is_refused_by_one_line() {
     assert_eq!(line(Strands::default()), "pose.usda has no curves: an aim needs at least one");
     let mut doubled = strands;
     doubled.push([Vec3::ONE; 2]);
-    assert_eq!(line(doubled), "pose.usda = curve 4: has no length, so it gives no direction");
+    assert_eq!(line(doubled), "pose.usda has a curve without a length, number 4: remove it");
 }

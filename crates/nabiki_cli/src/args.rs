@@ -191,6 +191,11 @@ pub struct ExportArgs {
     #[arg(long)]
     pub export_head: bool,
 
+    /// In a .glb: add VRM's spring bones (VRMC_springBone) with the scene's hold, weight and settling, for games that move the
+    /// hair themselves
+    #[arg(long)]
+    pub export_springs: bool,
+
     #[command(flatten)]
     pub chains: ChainArgs,
 }
@@ -210,14 +215,15 @@ pub struct ChainArgs {
 impl ChainArgs {
     pub fn options(&self) -> ChainOptions {
         let (chains, joints) = self.export_chains;
-        ChainOptions { chains, joints, cards: self.export_cards }
+        ChainOptions { chains, joints, cards: self.export_cards, springs: None }
     }
 }
 
 impl ExportArgs {
     pub fn options(&self) -> ExportOptions {
         let (files, layer) = (self.export.clone(), self.export_layer.clone());
-        ExportOptions { files, layer, head: self.export_head, chains: self.chains.options() }
+        let (head, chains, springs) = (self.export_head, self.chains.options(), self.export_springs);
+        ExportOptions { files, layer, head, chains, springs }
     }
 }
 

@@ -399,20 +399,7 @@ pub fn still(hair: &Hair, declared: DeclaredSpace) -> Export<'_> {
 /// # Errors
 /// Errors of the disk.
 pub fn write(path: &Path, hair: &Hair, declared: DeclaredSpace) -> Result<()> {
-    write_still(path, still(hair, declared), &DAffine3::IDENTITY)
-}
-
-/// Writes hair that does not move, with these export settings, below a head at `world_from_head` (cm).
-///
-/// # Errors
-/// Errors of the disk.
-pub fn write_still(path: &Path, export: Export<'_>, world_from_head: &DAffine3) -> Result<()> {
-    let hair = export.hair;
-    let mut sink = moving::sink(path, export, None, ChainOptions::default())?;
-    let named = |e: std::io::Error| Error::from(e).in_file(path);
-    sink.frame(&hair.strands, world_from_head).map_err(named)?;
-    sink.finish().map_err(named)?;
-    Ok(())
+    moving::write_still(path, still(hair, declared), &DAffine3::IDENTITY, ChainOptions::default())
 }
 
 /// Phrases about the data of `hair` that the layer or archive `path` cannot store.

@@ -28,11 +28,35 @@ pub struct ChainOptions {
     pub joints: u32,
     /// Width of the ribbons that strands are drawn as (cm). 0 draws lines, which few engines bind to joints.
     pub cards: f32,
+    /// Settings of VRM's spring bones for the chains, for games that move hair themselves; `None` for none.
+    pub springs: Option<Springs>,
+}
+
+/// How VRM's spring bones move like the hair, at 60 steps per second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Springs {
+    /// `stiffness`: what turns a bone back, in metres per step and second.
+    pub stiffness: f64,
+    /// `dragForce`: the share of its speed that a bone loses in a step.
+    pub drag: f64,
+}
+
+impl Springs {
+    /// Steps per second that engines take with VRM's spring bones: their drag counts steps.
+    const STEPS_PER_S: f64 = 60.0;
+
+    /// For hair that is turned back with this acceleration (m/s^2), by hold and by what supports its weight, and whose swings
+    /// fall to 1/e in `settle` seconds.
+    pub fn new(back: f64, settle: f64) -> Self {
+        // A step adds stiffness times its length to the way of the tail; drag takes its share of the way of the step before.
+        let drag = 1.0 - (-2.0 / (Self::STEPS_PER_S * settle)).exp();
+        Self { stiffness: back / Self::STEPS_PER_S, drag }
+    }
 }
 
 impl Default for ChainOptions {
     fn default() -> Self {
-        Self { chains: 64, joints: 8, cards: 0.4 }
+        Self { chains: 64, joints: 8, cards: 0.4, springs: None }
     }
 }
 
@@ -45,7 +69,7 @@ impl ChainOptions {
     /// # Errors
     /// What is wrong, as a phrase.
     pub fn check(&self) -> Result<(), String> {
-        let Self { chains, joints, cards } = *self;
+        let Self { chains, joints, cards, .. } = *self;
         let all = u64::from(chains) * u64::from(joints);
         if all == 0 {
             return Err(format!("{chains}x{joints}: give at least 1x1"));
@@ -62,8 +86,11 @@ impl ChainOptions {
 
 /// So many strands for each chain may become its guide.
 const CANDIDATES: u64 = 12;
-/// Memory for the ways of these.
+/// Memory for the ways of these, and for those of the chains alone.
 const MOST_BYTES: u64 = 256 << 20;
+const MOST_WAYS: u64 = 4 << 30;
+/// Bytes of a vertex of a ribbon, with its indices.
+const VERTEX_BYTES: u64 = 52;
 
 /// Frames in which hair and its chains are compared, at most.
 const COMPARED: u32 = 16;
@@ -101,7 +128,13 @@ impl<'a> JointChains<'a> {
         let rest = placed(&export, &gltf_from_file, &export.hair.strands);
         let roots: Vec<Vec3> = rest.iter().map(|strand| strand[0]).collect();
         // Their way through all frames must fit into memory.
-        let bytes = u64::from(options.joints + 1) * u64::from(export.frames) * size_of::<Vec3>() as u64;
+        let bytes = (u64::from(options.joints) + 1) * u64::from(export.frames) * size_of::<Vec3>() as u64;
+        let chains = u64::from(options.chains).min(export.hair.strands.len() as u64);
+        let vertices = 2 * export.hair.strands.points().len() as u64;
+        if bytes * chains > MOST_WAYS || vertices * VERTEX_BYTES > u64::from(u32::MAX) {
+            let problem = "a .glb holds less than 4 GiB: show fewer strands or frames, or lower --export-chains";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+        }
         let most = (MOST_BYTES / bytes).min(u64::from(options.chains) * CANDIDATES).max(u64::from(options.chains));
         let guides = evenly(&roots, most as usize);
         let guides = guides.into_iter().map(|s| Guide::new(s, rest.strand(s), options.joints as usize)).collect();
@@ -109,6 +142,17 @@ impl<'a> JointChains<'a> {
         let file = PartFile::create(path)?;
         Ok(Self { file, export, options, gltf_from_file, guides, sampled, heads: Vec::new(), room: Vec::new() })
     }
+}
+
+/// Refuses a transform above the hair that is more than a turn and a shift.
+fn check_rigid(parent: &DAffine3) -> io::Result<()> {
+    let off = parent.matrix3.transpose() * parent.matrix3 - DMat3::IDENTITY;
+    if off.to_cols_array().iter().all(|x| x.abs() < 1e-4) {
+        return Ok(());
+    }
+    let problem = "the transform above the hair scales or shears it, which joints cannot: apply the scale in the program that the \
+                   hair comes from";
+    Err(io::Error::new(io::ErrorKind::InvalidInput, problem))
 }
 
 /// The strands in glTF's axes and unit, on the head.
@@ -127,6 +171,7 @@ impl FrameSink for JointChains<'_> {
         self.guides.iter_mut().for_each(|guide| guide.push(&now));
         self.sampled.push(&now);
         let parent = DAffine3::from_mat4(self.export.parent(world_from_head));
+        check_rigid(&parent)?;
         self.heads.push(self.gltf_from_file * parent * self.gltf_from_file.inverse());
         Ok(())
     }
@@ -145,6 +190,7 @@ impl FrameSink for JointChains<'_> {
         });
         let scene = glb::Scene {
             rest: &rest,
+            center: (self.gltf_from_file * self.export.file_from_head).translation.as_vec3(),
             bound: &bound,
             guides: &self.guides,
             heads: &self.heads,
@@ -152,6 +198,7 @@ impl FrameSink for JointChains<'_> {
             colour: colour.unwrap_or([0.2, 0.1, 0.05]),
             half_width: (self.options.cards > 0.0).then_some(0.5 * 0.01 * self.options.cards),
             head,
+            springs: self.options.springs,
         };
         glb::write(&scene, &mut self.file)?;
         self.file.finish()?;

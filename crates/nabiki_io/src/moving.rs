@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use glam::DAffine3;
 use nabiki::Hair;
 use nabiki_alembic::HairArchive;
 use nabiki_exchange::{Export, FrameSink};
@@ -9,8 +10,8 @@ use nabiki_usd::{HairStage, LayerKind};
 
 use crate::error::{Error, Result};
 use crate::exchange;
-pub use crate::joint_chains::ChainOptions;
 use crate::joint_chains::JointChains;
+pub use crate::joint_chains::{ChainOptions, Springs};
 use crate::kind::extension;
 use crate::point_cache::{Kind, PointCache};
 
@@ -48,6 +49,16 @@ pub fn holds_hair(path: &Path) -> bool {
     matches!(Format::of(path), Some(Format::Usd | Format::Alembic))
 }
 
+/// Whether strands of this format begin at their roots. In others they run as in the file that the hair came from.
+pub fn is_root_first(path: &Path) -> bool {
+    Format::of(path) == Some(Format::Gltf)
+}
+
+/// Whether the file names its unit and up axis, so that these must be known: USD and glTF.
+pub fn states_space(path: &Path) -> bool {
+    matches!(Format::of(path), Some(Format::Usd | Format::Gltf))
+}
+
 /// Starts a file for moving hair, frame by frame. `layer` is the prim path of a groom, for a layer with only samples;
 /// `chains` is for .glb alone.
 ///
@@ -72,6 +83,19 @@ pub fn sink<'a>(
         (Some(Format::Points(kind)), None) => Ok(Box::new(PointCache::create(path, kind, export).map_err(named)?)),
         (None, _) => refused(format!("moving hair is written as {ENDINGS}")),
     }
+}
+
+/// Writes hair that does not move, with these export settings, below a head at `world_from_head` (cm).
+///
+/// # Errors
+/// Errors of the disk.
+pub fn write_still(path: &Path, export: Export<'_>, world_from_head: &DAffine3, chains: ChainOptions) -> Result<()> {
+    let hair = export.hair;
+    let mut sink = sink(path, export, None, chains)?;
+    let named = |e: std::io::Error| Error::from(e).in_file(path);
+    sink.frame(&hair.strands, world_from_head).map_err(named)?;
+    sink.finish().map_err(named)?;
+    Ok(())
 }
 
 /// Why this format takes no layer.

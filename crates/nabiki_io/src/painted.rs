@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::input;
 
 /// Most pixels along an edge.
-const MOST_PIXELS: u32 = 8192;
+const MOST_PIXELS: u32 = 4096;
 /// Size limit of its file: that many pixels of four channels of 16 bits, not compressed (bytes).
 const MOST_BYTES: u64 = 8 * (MOST_PIXELS as u64).pow(2);
 
@@ -27,7 +27,7 @@ impl PaintedMap {
     /// Reads a PNG of 8 or 16 bits. Colours become grey, and what is transparent black.
     ///
     /// # Errors
-    /// A file that is no PNG, is damaged, or has more than 8192 pixels along an edge.
+    /// A file that is no PNG, is damaged, or has more than 4096 pixels along an edge.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = input::read(path, MOST_BYTES)?;
         Self::of_png(&bytes).map_err(|refused| refused.in_file(path))
@@ -129,7 +129,7 @@ mod tests {
         assert_eq!(line(b"GIF89a"), "is not a PNG: save the map as a PNG of 8 or 16 bits");
         let sound = png(GrayImage::new(30, 30));
         assert!(line(&sound[..sound.len() / 2]).starts_with("is a damaged PNG: "));
-        let large = png(GrayImage::new(8193, 1));
-        assert_eq!(line(&large), "has 8193 x 1 pixels: a map may have at most 8192 along an edge");
+        let large = png(GrayImage::new(4097, 1));
+        assert_eq!(line(&large), "has 4097 x 1 pixels: a map may have at most 4096 along an edge");
     }
 }

@@ -1,6 +1,6 @@
 //! Point caches, which programs lay over a mesh with the same points: PC2 of 3ds Max, and MDD of LightWave.
 //!
-//! Of hair, every frame holds every point in the world of the file, strand after strand, root first.
+//! Of hair, every frame holds every point in the world of the file, strand after strand, in the order of the hair's file.
 
 mod read;
 
@@ -88,7 +88,7 @@ impl FrameSink for PointCache<'_> {
         }
         self.file.finish()?;
         let (points, strands) = (self.export.hair.strands.points().len(), self.export.hair.strands.len());
-        Ok(Some(format!("{frames} frames of {points} points, strand after strand of {strands}, root first")))
+        Ok(Some(format!("{frames} frames of {points} points, strand after strand of {strands}")))
     }
 }
 
@@ -115,7 +115,7 @@ mod tests {
         for x in [0.0, 10.0] {
             sink.frame(&hair.strands, &DAffine3::from_translation(DVec3::X * x)).unwrap();
         }
-        assert_eq!(sink.finish().unwrap().unwrap(), "2 frames of 5 points, strand after strand of 2, root first");
+        assert_eq!(sink.finish().unwrap().unwrap(), "2 frames of 5 points, strand after strand of 2");
         std::fs::read(path).unwrap()
     }
 

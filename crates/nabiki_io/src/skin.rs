@@ -1,4 +1,4 @@
-//! Skin that bends: the vertices of a head's mesh in every frame, from the file that holds both mesh and motion.
+//! Skin that bends: the vertices of a head's mesh in every frame, from the file that holds both mesh and motion, or from a point cache.
 
 use std::io::Read;
 use std::path::Path;

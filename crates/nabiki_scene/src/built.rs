@@ -10,14 +10,6 @@ mod identity;
 mod model;
 mod skin;
 mod stage;
-/// See [`BuiltScene::hair_origin`].
-fn hair_origin(scene: &Scene, groom: &Groom) -> Option<Origin> {
-    let Imported { placement, report, curves, .. } = groom.imported.as_ref()?;
-    let in_world = scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
-    let (placement, groom) = (*placement, curves.clone());
-    Some(Origin { placement, points: report.points_in_file as u64, groom, in_world })
-}
-
 #[cfg(test)]
 mod tests;
 mod way;
@@ -349,4 +341,12 @@ impl BuiltScene {
         units.for_each(|advice| refused.remedy += &format!("; check the size first: {advice}"));
         self.scene.refusal(refused).into()
     }
+}
+
+/// See [`BuiltScene::hair_origin`].
+fn hair_origin(scene: &Scene, groom: &Groom) -> Option<Origin> {
+    let Imported { placement, report, curves, .. } = groom.imported.as_ref()?;
+    let in_world = scene.head.motion.as_ref().is_some_and(|motion| !motion.start_at_origin);
+    let (placement, groom) = (*placement, curves.clone());
+    Some(Origin { placement, points: report.points_in_file as u64, groom, in_world })
 }

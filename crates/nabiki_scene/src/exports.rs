@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use nabiki::dynamics::{Form, earth_gravity};
+use nabiki::free_form::EARTH_CM_PER_S2;
 use nabiki::{Hair, Pose, Strands};
 use nabiki_exchange::FrameSink;
 use nabiki_io::cache::Origin;
 use nabiki_io::exchange;
-use nabiki_io::moving::{self, ChainOptions};
+use nabiki_io::moving::{self, ChainOptions, Springs};
 use nabiki_render::colour;
 
 use crate::built::BuiltScene;
@@ -27,13 +29,15 @@ pub struct ExportOptions {
     pub head: bool,
     /// How hair is turned into chains of joints, for .glb files.
     pub chains: ChainOptions,
+    /// Whether a .glb also gets VRM's spring bones, with the scene's hold, weight and settling. Free form only.
+    pub springs: bool,
 }
 
 impl ExportOptions {
     /// Refuses file names that are not valid for moving hair, before anything is built.
     ///
     /// # Errors
-    /// An ending that belongs to no format of moving hair, or a layer for Alembic, which has none.
+    /// An ending that belongs to no format of moving hair, a layer for a format that has none, or options without their file.
     pub fn check(&self) -> Result<()> {
         if let (Some(prim), []) = (&self.layer, &self.files[..]) {
             return Err(Error::refused(format!(
@@ -48,6 +52,12 @@ impl ExportOptions {
         if self.head && self.files.is_empty() {
             let line = "--export-head: adds the head to moving hair, but none is written: also give --export FILE.usdc";
             return Err(Error::refused(line));
+        }
+        let has_chains = self.files.iter().any(|file| moving::is_root_first(file));
+        if self.springs && !has_chains {
+            return Err(Error::refused(
+                "--export-springs: springs are for chains of joints: also give --export FILE.glb",
+            ));
         }
         self.chains.check().map_err(|why| Error::refused(format!("--export-chains, --export-cards: {why}")))?;
         self.files.iter().try_for_each(|file| {
@@ -65,7 +75,7 @@ impl ExportOptions {
 pub(crate) struct Exports<'a> {
     sinks: Vec<(PathBuf, Box<dyn FrameSink + 'a>)>,
     origin: Option<Origin>,
-    /// Strands that the hair's file stores tip first, and memory for a frame with these reversed.
+    /// Strands that the hair's file stores tip first, and memory for a frame with these reversed, as most formats have it.
     turned: Option<(&'a [bool], Strands)>,
     next: u32,
 }
@@ -78,10 +88,14 @@ impl<'a> Exports<'a> {
         hair: &'a Hair,
         watch: &mut dyn Watch,
     ) -> Result<Self> {
+        let springs = if options.springs { Some(springs_of(built)?) } else { None };
+        let chains = ChainOptions { springs, ..options.chains };
         let mut sinks = Vec::new();
         for path in &options.files {
             let frame_rate = built.scene.frame_rate();
             let imported = built.groom.imported.as_ref();
+            let root_first = moving::is_root_first(path);
+            let hair = if root_first { &built.groom.hair } else { hair };
             let mut export = exchange::export(hair, frame_rate, imported.map(|imported| &imported.placement));
             export.first_frame = built.first_frame();
             export.frames = built.frames() + 1;
@@ -107,7 +121,7 @@ impl<'a> Exports<'a> {
             if options.layer.is_none() {
                 super::tasks::lost(path, moving::losses(path, hair), watch);
             }
-            sinks.push((path.clone(), moving::sink(path, export, options.layer.as_deref(), options.chains)?));
+            sinks.push((path.clone(), moving::sink(path, export, options.layer.as_deref(), chains)?));
         }
         let turned = built.groom.hair.attributes.tip_first.as_deref().filter(|_| !sinks.is_empty());
         let turned = turned.map(|turned| (turned, built.strands().clone()));
@@ -121,7 +135,7 @@ impl<'a> Exports<'a> {
         }
         self.next += 1;
         let world_from_head = Origin::world_from_head(self.origin.as_ref(), pose);
-        let strands = match &mut self.turned {
+        let in_source = match &mut self.turned {
             Some((tip_first, room)) => {
                 room.points_mut().copy_from_slice(strands.points());
                 room.turn(tip_first);
@@ -130,6 +144,7 @@ impl<'a> Exports<'a> {
             None => strands,
         };
         for (path, sink) in &mut self.sinks {
+            let strands = if moving::is_root_first(path) { strands } else { in_source };
             sink.frame(strands, &world_from_head).map_err(|e| named(e, path))?;
         }
         Ok(())
@@ -144,6 +159,26 @@ impl<'a> Exports<'a> {
         }
         Ok(written)
     }
+}
+
+/// VRM's spring bones for the hair of a scene.
+fn springs_of(built: &BuiltScene) -> Result<Springs> {
+    let Form::Free(free) = &built.dynamics.form else {
+        return Err(Error::refused(
+            "--export-springs: springs are for hair that comes back to rest: set motion.form = \"free\"",
+        ));
+    };
+    let lengths: Vec<f64> = built.strands().lengths().map(f64::from).collect();
+    let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+    // The unit of the force, in m/s^2.
+    let unit = 0.01 * EARTH_CM_PER_S2 / f64::from(earth_gravity(&built.dynamics, mean));
+    let back = (free.form.hold.mean() + f64::from(free.form.gravity)) * unit;
+    let settle = free.form.settle.mean() * f64::from(built.dynamics.motion.slow) / built.scene.frame_rate();
+    if settle == 0.0 {
+        let line = "--export-springs: with free.settle = 0 hair swings for ever, and springs cannot: give settle";
+        return Err(Error::refused(line));
+    }
+    Ok(Springs::new(back, settle))
 }
 
 fn named(error: std::io::Error, path: &Path) -> Error {

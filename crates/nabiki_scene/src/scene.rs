@@ -270,14 +270,20 @@ impl Scene {
     }
 
     /// Refuses an aim that leads to no shape, or leads a region that there is not.
-    fn check_aim(&self, aim: &AimSettings, name: &str) -> Result<(), SettingError> {
+    pub(crate) fn check_aim(&self, aim: &AimSettings, name: &str) -> Result<(), SettingError> {
         aim.check_at(name)?;
         let Some(region) = aim.region.as_ref().filter(|region| self.region_named(region).is_none()) else {
             return Ok(());
         };
-        let there: Vec<String> = self.free.regions.iter().map(|region| format!("\"{}\"", region.name)).collect();
+        let there: Vec<String> = self
+            .free
+            .regions
+            .iter()
+            .filter(|region| !region.name.is_empty())
+            .map(|region| format!("\"{}\"", region.name))
+            .collect();
         let remedy = match &there[..] {
-            [] => "there are no [[free.regions]]: add the region, or leave it out to lead all hair".to_owned(),
+            [] => "no [[free.regions]] has a name: add the region, or leave it out to lead all hair".to_owned(),
             _ => format!("there is no such region: give one of {}", there.join(", ")),
         };
         Err(SettingError::new(format!("{name}.region"), format!("\"{region}\""), remedy))
@@ -285,7 +291,7 @@ impl Scene {
 
     /// The index of the region of this name.
     pub(crate) fn region_named(&self, name: &str) -> Option<usize> {
-        self.free.regions.iter().position(|region| region.name == name)
+        self.free.regions.iter().position(|region| !name.is_empty() && region.name == name)
     }
 
     /// Refuses a wind given by its speed if no air carries the hair.

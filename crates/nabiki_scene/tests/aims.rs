@@ -102,7 +102,7 @@ fn what_no_aim_can_be_is_refused_by_one_line() {
         ("", "aim[0].file is missing: give file, toward, or groom = true"),
         (
             "groom = true\ntoward = [1, 2, 3]",
-            "aim[0].toward = given too: an aim has one shape: give one of file, toward and groom",
+            "aim[0].toward = [1, 2, 3]: an aim has one shape: give only one of file, toward and groom",
         ),
         ("groom = true\nframe = 3", "aim[0].frame = 3: is for the curves of a file, and this aim has none: remove it"),
         ("groom = true\nregion = \"frnt\"", "aim[0].region = \"frnt\": there is no such region: give one of \"front\""),
@@ -125,7 +125,7 @@ fn aims_that_change_nothing_or_are_too_long_are_said() {
     };
     assert_eq!(said("groom = true\nfrom = 3"), [""; 0]);
     let late = said("groom = true\nfrom = 40");
-    assert_eq!(late, ["aim[0] changes nothing: it begins after frame 28, but the last frame is 12"]);
+    assert_eq!(late, ["aim[0] changes nothing: it begins in frame 28, but the last frame is 12"]);
     let long = "#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = \"Y\"\n)\ndef BasisCurves \"c\"\n{\n    uniform token type = \
                 \"linear\"\n    int[] curveVertexCounts = [2]\n    point3f[] points = [(0, 10, 0), (0, 90, 0)]\n}\n";
     std::fs::write(folder.path().join("long.usda"), long).unwrap();

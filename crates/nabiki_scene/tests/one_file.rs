@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::{DAffine3, Vec3};
 use nabiki::{Hair, Mesh, Strands};
+use nabiki_io::moving::{self, ChainOptions};
 use nabiki_io::{Placement, exchange};
 use nabiki_scene::template::template;
 use nabiki_scene::{BuiltScene, Scene, Shown};
@@ -44,7 +45,7 @@ fn one_file(file: &Path, left: f32, by: Vec3) {
     hair.strands.points_mut().iter_mut().for_each(|p| *p += by);
     let mut export = exchange::export(&hair, 24.0, None);
     export.head = Some(&head);
-    let mut sink = exchange::sink(file, export, None).unwrap();
+    let mut sink = moving::sink(file, export, None, ChainOptions::default()).unwrap();
     sink.frame(&hair.strands, &DAffine3::IDENTITY).unwrap();
     sink.finish().unwrap();
 }

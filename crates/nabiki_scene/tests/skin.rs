@@ -231,6 +231,13 @@ fn a_point_cache_of_another_mesh_or_cut_off_is_refused() {
     );
     let line = said(b"POINTCACHE2\0");
     assert!(line.contains("face.pc2: ends within its header: the file is cut off"), "{line}");
-    let line = said(&[&whole[..28], &i32::MAX.to_le_bytes()[..]].concat());
+    // Counts of more bytes than fit into 64 bits.
+    let mut huge = whole[..32].to_vec();
+    huge[16..20].copy_from_slice(&i32::MAX.to_le_bytes());
+    huge[28..32].copy_from_slice(&i32::MAX.to_le_bytes());
+    let line = said(&huge);
     assert!(line.contains("it is cut off"), "{line}");
+    huge[28..32].copy_from_slice(&(-1_i32).to_le_bytes());
+    let line = said(&huge);
+    assert!(line.contains("holds -1 frames of 2147483647 points: both must be above 0"), "{line}");
 }

@@ -310,7 +310,8 @@ class Reader:
         placed, faces = meshes.placed(points, faces, meshes.matrix(evaluated.matrix_world), self.origin)
         if len(placed) != len(body.points) or (faces != body.faces).any():
             frame = self.scene.frame_current
-            raise Mistake(f'{what} "{other.name}" has other faces in frame {frame}: hair needs a mesh that keeps its vertices and faces')
+            way_out = "remove the modifier that changes them" + (", or set a bone in Nabiki > Head Bone" if body is self.head_body else "")
+            raise Mistake(f'{what} "{other.name}" has other faces in frame {frame} than in the first: {way_out}')
         body.bent.append(placed.astype(np.float32))
         same = (body.bent[-1] == body.bent[0]).all()
         body.ways.append((np.eye(3), np.zeros(3)) if same else meshes.fitted(body.points, placed)[:2])

@@ -34,7 +34,7 @@ impl AimCurves {
             return Err(SettingError::new(thing, curves.points()[point], remedy));
         }
         if let Some(s) = curves.lengths().position(|length| length == 0.0) {
-            return Err(SettingError::new(thing, format!("curve {s}"), "has no length, so it gives no direction"));
+            return Err(SettingError::new(thing, "", format!("has a curve without a length, number {s}: remove it")));
         }
         let x = |&s: &u32| curves.strand(s as usize)[0].x;
         let mut order: Vec<u32> = (0..curves.len() as u32).collect();

@@ -93,9 +93,9 @@ impl Simulation {
     /// The least memory for moving this hair (bytes).
     #[must_use]
     pub fn least_bytes(strands: &Strands, dynamics: &Dynamics) -> u64 {
-        let row = match dynamics.form {
+        let row = match &dynamics.form {
             Form::Paper => paper::Runner::BYTES_A_ROW,
-            Form::Free(_) => free::Runner::BYTES_A_ROW,
+            Form::Free(free) => free::Runner::bytes_a_row(free.aims.len()),
         };
         let rows = strands.segment_count().div_ceil(LANES);
         (rows * row + size_of_val(strands.points())) as u64

@@ -70,20 +70,17 @@ pub(super) fn bind(rest: &Strands, guides: &[Guide], sampled: &Sampled) -> (Vec<
     let bones: Vec<Poses> = guides.iter().map(|guide| poses(guide, sampled)).collect();
     let (mut bound, mut sum, mut most, mut count) = (Vec::with_capacity(rest.points().len()), 0.0, 0.0_f64, 0_u64);
     for (s, strand) in rest.iter().enumerate() {
-        let mut near: Vec<(f32, usize)> =
-            guides.iter().enumerate().map(|(g, guide)| (guide.rest[0].distance_squared(strand[0]), g)).collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        near.truncate(TRIED);
+        let near = nearest(guides.iter().map(|guide| guide.rest[0]), strand[0]);
         let lengths = lengths(strand);
         // Where each guide takes the compared points in each sampled frame.
         let followed = Followed { places: &sampled.places[s], strand, lengths: &lengths };
-        let taken: Vec<Vec<DVec3>> = near.iter().map(|&(_, g)| followed.by(&guides[g], &bones[g])).collect();
+        let taken: Vec<Vec<DVec3>> = near.iter().map(|&g| followed.by(&guides[g], &bones[g])).collect();
         let wanted = sampled.way(s);
         let (led, apart) = best(&taken, &wanted);
         for distance in apart {
             (sum, most, count) = (sum + distance, most.max(distance), count + 1);
         }
-        let led = Led { guides: led.guides.map(|at| near[at].1), ..led };
+        let led = Led { guides: led.guides.map(|at| near[at]), ..led };
         bound.extend(lengths.iter().map(|&along| influence(guides, led, along)));
     }
     (bound, [sum / count.max(1) as f64, most])
@@ -131,12 +128,7 @@ pub(super) fn choose(rest: &Strands, mut candidates: Vec<Guide>, count: usize, s
     for _ in 0..ROUNDS {
         let mut own: Vec<Vec<usize>> = vec![Vec::new(); chosen.len()];
         for c in 0..candidates.len() {
-            let mut near: Vec<usize> = (0..chosen.len()).collect();
-            near.sort_by(|&a, &b| {
-                let far = |g: usize| root(chosen[g]).distance_squared(root(c));
-                far(a).total_cmp(&far(b)).then(a.cmp(&b))
-            });
-            near.truncate(TRIED);
+            let near = nearest(chosen.iter().map(|&guide| root(guide)), root(c));
             let best = near.into_iter().map(|g| (cost(c, chosen[g]), g)).min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, g)) = best {
                 own[g].push(c);
@@ -159,6 +151,18 @@ pub(super) fn choose(rest: &Strands, mut candidates: Vec<Guide>, count: usize, s
         chosen.binary_search(&(at - 1)).is_ok()
     });
     candidates
+}
+
+/// The numbers of the roots nearest to a place, nearest first; of roots at the same distance, the lower number first.
+fn nearest(roots: impl Iterator<Item = Vec3>, place: Vec3) -> Vec<usize> {
+    let mut all: Vec<(f32, usize)> = roots.enumerate().map(|(g, root)| (root.distance_squared(place), g)).collect();
+    let order = |a: &(f32, usize), b: &(f32, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if all.len() > TRIED {
+        all.select_nth_unstable_by(TRIED, order);
+        all.truncate(TRIED);
+    }
+    all.sort_by(order);
+    all.into_iter().map(|(_, g)| g).collect()
 }
 
 /// The length of hair up to each point.
@@ -228,7 +232,10 @@ fn influence(guides: &[Guide], led: Led, along: f32) -> Influence {
         weights[2 * i] = share * f64::from(1.0 - part);
         weights[2 * i + 1] = share * f64::from(part);
     }
-    (joints, whole(weights))
+    let weights = whole(weights);
+    // The number of a joint without a weight is 0.
+    joints.iter_mut().zip(weights).filter(|(_, weight)| *weight == 0).for_each(|(joint, _)| *joint = 0);
+    (joints, weights)
 }
 
 /// Weights that sum to 1 in parts of 255, as near as they can: what rounding leaves goes to the largest.

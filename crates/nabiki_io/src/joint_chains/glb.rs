@@ -6,13 +6,14 @@ use glam::{DAffine3, DQuat, Vec3};
 use nabiki::Strands;
 use serde_json::{Value, json};
 
+use super::Springs;
 use super::bind::Influence;
 use super::chain::{Bone, Guide};
 
 // Names of the specification.
 const FLOAT: u32 = 5126;
 const SHORT: u32 = 5122;
-const BYTE: u32 = 5121;
+const UNSIGNED_BYTE: u32 = 5121;
 const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const LINES: u32 = 1;
@@ -24,6 +25,8 @@ const STAYS: f64 = 1e-6;
 /// What is written. Points are in metres, y up, on the head.
 pub(super) struct Scene<'a> {
     pub rest: &'a Strands,
+    /// The origin of the head.
+    pub center: Vec3,
     /// What leads each of these points.
     pub bound: &'a [Influence],
     pub guides: &'a [Guide],
@@ -36,6 +39,7 @@ pub(super) struct Scene<'a> {
     pub half_width: Option<f32>,
     /// Vertices and triangles of the head.
     pub head: Option<(Vec<Vec3>, &'a [[u32; 3]])>,
+    pub springs: Option<Springs>,
 }
 
 /// The buffer, and what describes it.
@@ -129,6 +133,10 @@ pub(super) fn write(scene: &Scene<'_>, to: &mut impl Write) -> io::Result<()> {
         "bufferViews": binary.views,
         "buffers": [{ "byteLength": binary.bytes.len() }],
     });
+    if let Some(springs) = scene.springs {
+        document["extensionsUsed"] = json!(["VRMC_springBone"]);
+        document["extensions"] = json!({ "VRMC_springBone": spring_bones(scene.guides, &joints, springs) });
+    }
     if scene.heads.len() > 1 {
         document["animations"] = json!([animation]);
     }
@@ -163,7 +171,7 @@ fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
     let strands = scene.rest;
     let (points, each) = match scene.half_width {
         None => (strands.points().to_vec(), 1),
-        Some(half) => (strands.iter().flat_map(|strand| ribbon(strand, half)).collect(), 2),
+        Some(half) => (strands.iter().flat_map(|strand| ribbon(strand, half, scene.center)).collect(), 2),
     };
     let (mut joints, mut weights): (Vec<[u16; 4]>, Vec<[u8; 4]>) = (Vec::new(), Vec::new());
     for (of, by) in scene.bound {
@@ -189,7 +197,7 @@ fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
     let view = binary.view(bytemuck::cast_slice(&joints), VERTICES);
     let joints = binary.accessor(view, 0, UNSIGNED_SHORT, "VEC4", points.len());
     let view = binary.view(bytemuck::cast_slice(&weights), VERTICES);
-    let weights = binary.accessor(view, 0, BYTE, "VEC4", points.len());
+    let weights = binary.accessor(view, 0, UNSIGNED_BYTE, "VEC4", points.len());
     binary.accessors[weights]["normalized"] = true.into();
     let mut attributes = json!({ "POSITION": position, "JOINTS_0": joints, "WEIGHTS_0": weights });
     if each == 2 {
@@ -198,7 +206,8 @@ fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
         let uvs = binary.accessor(view, 0, UNSIGNED_SHORT, "VEC2", uvs.len());
         binary.accessors[uvs]["normalized"] = true.into();
         attributes["TEXCOORD_0"] = uvs.into();
-        let normals: Vec<Vec3> = strands.iter().flat_map(normals).flat_map(|normal| [normal; 2]).collect();
+        let all = strands.iter().flat_map(|strand| normals(strand, scene.center));
+        let normals: Vec<Vec3> = all.flat_map(|normal| [normal; 2]).collect();
         attributes["NORMAL"] = binary.vectors(&normals, VERTICES).into();
     }
     let indices = binary.indices(&indices);
@@ -220,17 +229,17 @@ fn tangents(strand: &[Vec3]) -> impl Iterator<Item = Vec3> {
 }
 
 /// A direction across the strand at each point that lies on the skin as near as may be: ribbons lie flat on the head.
-fn normals(strand: &[Vec3]) -> Vec<Vec3> {
-    // Hair grows away from the origin of the head.
-    let out = strand[0].normalize_or(Vec3::Y);
+fn normals(strand: &[Vec3], center: Vec3) -> Vec<Vec3> {
+    // Hair grows away from the middle of the head.
+    let out = (strand[0] - center).normalize_or(Vec3::Y);
     tangents(strand)
         .map(|tangent| (out - tangent * tangent.dot(out)).normalize_or(tangent.any_orthonormal_vector()))
         .collect()
 }
 
 /// Two points at each point of the strand, left and right.
-fn ribbon(strand: &[Vec3], half: f32) -> Vec<Vec3> {
-    let sides = tangents(strand).zip(normals(strand)).map(|(tangent, normal)| half * tangent.cross(normal));
+fn ribbon(strand: &[Vec3], half: f32, center: Vec3) -> Vec<Vec3> {
+    let sides = tangents(strand).zip(normals(strand, center)).map(|(tangent, normal)| half * tangent.cross(normal));
     strand.iter().zip(sides).flat_map(|(p, side)| [*p - side, *p + side]).collect()
 }
 
@@ -244,11 +253,16 @@ fn joints(scene: &Scene<'_>) -> (Vec<Value>, Vec<usize>) {
         for k in 0..count {
             let from = if k == 0 { guide.rest[0] } else { guide.rest[k] - guide.rest[k - 1] };
             let mut node = json!({ "name": format!("hair_{g}_{k}"), "translation": short(&from.to_array()) });
-            if k + 1 < count {
+            if k + 1 < count || scene.springs.is_some() {
                 node["children"] = json!([nodes.len() + 1]);
             }
             joints.push(nodes.len());
             nodes.push(node);
+        }
+        if scene.springs.is_some() {
+            // Where the last bone ends: no joint of the skin, but the last of the spring.
+            let bone = guide.rest[count] - guide.rest[count - 1];
+            nodes.push(json!({ "name": format!("hair_{g}_end"), "translation": short(&bone.to_array()) }));
         }
     }
     nodes[0] = json!({ "name": "head", "children": roots });
@@ -269,6 +283,26 @@ fn short(numbers: &[f32]) -> Value {
 fn placed(transform: &DAffine3) -> ([f32; 4], [f32; 3]) {
     let (_, turn, place) = transform.to_scale_rotation_translation();
     (turn.as_quat().to_array(), place.as_vec3().to_array())
+}
+
+/// The chains as spring bones, after VRM's extension `VRMC_springBone` 1.0.
+fn spring_bones(guides: &[Guide], joints: &[usize], Springs { stiffness, drag }: Springs) -> Value {
+    let mut first = 0;
+    let mut springs = Vec::new();
+    for (g, guide) in guides.iter().enumerate() {
+        let own = &joints[first..first + guide.rest.len() - 1];
+        first += own.len();
+        let bone = |&node: &usize| {
+            json!({
+                "node": node, "hitRadius": 0.0, "stiffness": stiffness, "dragForce": drag,
+                "gravityPower": 0.0, "gravityDir": [0.0, -1.0, 0.0]
+            })
+        };
+        let mut bones: Vec<Value> = own.iter().map(bone).collect();
+        bones.extend(own.last().map(|last| json!({ "node": last + 1 })));
+        springs.push(json!({ "name": format!("hair_{g}"), "joints": bones }));
+    }
+    json!({ "specVersion": "1.0", "springs": springs })
 }
 
 /// The joints that lead the hair, and where they are when it is at rest.

@@ -147,7 +147,7 @@ fn in_gltf(strands: &Strands, n: u32) -> Vec<DVec3> {
 /// Hair whose strands all do the same is led as it went, in every frame, on a head that walks and turns.
 #[test]
 fn skinned_hair_goes_where_it_was_simulated() {
-    let (bytes, holds) = written(ChainOptions { chains: 5, joints: 12, cards: 0.0 }, 0.0);
+    let (bytes, holds) = written(ChainOptions { chains: 5, joints: 12, cards: 0.0, springs: None }, 0.0);
     let read = Read::new(&bytes);
     for n in 0..FRAMES {
         let expected = in_gltf(&bent(&hair(), n, 0.0), n);
@@ -162,7 +162,7 @@ fn skinned_hair_goes_where_it_was_simulated() {
 /// What the file says of itself is what a reader of the file finds.
 #[test]
 fn the_distance_that_is_told_is_that_of_the_file() {
-    let (bytes, holds) = written(ChainOptions { chains: 6, joints: 4, cards: 0.0 }, 0.6);
+    let (bytes, holds) = written(ChainOptions { chains: 6, joints: 4, cards: 0.0, springs: None }, 0.6);
     let read = Read::new(&bytes);
     let (mut sum, mut count) = (0.0, 0);
     for n in 0..FRAMES {
@@ -183,7 +183,7 @@ fn the_distance_that_is_told_is_that_of_the_file() {
 
 #[test]
 fn ribbons_lie_along_the_strands() {
-    let (bytes, _) = written(ChainOptions { chains: 3, joints: 4, cards: 0.4 }, 0.1);
+    let (bytes, _) = written(ChainOptions { chains: 3, joints: 4, cards: 0.4, springs: None }, 0.1);
     let read = Read::new(&bytes);
     let primitive = &read.document["meshes"][0]["primitives"][0];
     assert_eq!(primitive["mode"], 4);
@@ -199,7 +199,7 @@ fn ribbons_lie_along_the_strands() {
 
 #[test]
 fn weights_sum_to_one_and_joints_are_there() {
-    let (bytes, _) = written(ChainOptions { chains: 7, joints: 3, cards: 0.0 }, 0.2);
+    let (bytes, _) = written(ChainOptions { chains: 7, joints: 3, cards: 0.0, springs: None }, 0.2);
     let read = Read::new(&bytes);
     let attributes = &read.document["meshes"][0]["primitives"][0]["attributes"];
     for (weights, joints) in read.numbers(&attributes["WEIGHTS_0"]).iter().zip(read.numbers(&attributes["JOINTS_0"])) {
@@ -210,8 +210,50 @@ fn weights_sum_to_one_and_joints_are_there() {
 
 #[test]
 fn options_out_of_range_are_refused() {
-    let refused = |chains, joints, cards| ChainOptions { chains, joints, cards }.check().unwrap_err();
+    let refused = |chains, joints, cards| ChainOptions { chains, joints, cards, springs: None }.check().unwrap_err();
     assert_eq!(refused(0, 8, 0.0), "0x8: give at least 1x1");
     assert_eq!(refused(9000, 8, 0.0), "9000x8 are 72000 joints: a file holds at most 65535");
     assert_eq!(refused(64, 8, -1.0), "cards of -1 cm: give a width, or 0 for lines");
+}
+
+/// A bone of VRM that is turned aside swings as its settings say: its amplitude falls to 1/e in the time given.
+#[test]
+fn springs_settle_when_they_should() {
+    let (back, settle, length) = (12.0, 0.6, 0.02);
+    let springs = Springs::new(back, settle);
+    let dt = 1.0 / 60.0;
+    // Small swings: the way of the tail across the bone, step by step as VRM writes it.
+    let (mut before, mut now) = (0.002_f64, 0.002);
+    let mut energy = Vec::new();
+    for _ in 0..120 {
+        let back = springs.stiffness * dt * now / length;
+        let next = now + (now - before) * (1.0 - springs.drag) - back;
+        (before, now) = (now, next);
+        energy.push(((now - before) / dt).powi(2) * length / 12.0 + now * now);
+    }
+    // An energy falls twice as fast as an amplitude; it ripples within a swing of 0.26 s, so it is taken over many of these.
+    let slope = (energy[100] / energy[10]).ln() / (90.0 * dt);
+    assert!((-2.0 / slope - settle).abs() < 0.1 * settle, "{} s", -2.0 / slope);
+}
+
+#[test]
+fn spring_bones_name_the_joints_of_each_chain_and_its_end() {
+    let springs = Some(Springs { stiffness: 0.2, drag: 0.1 });
+    let (bytes, _) = written(ChainOptions { chains: 3, joints: 4, cards: 0.0, springs }, 0.0);
+    let read = Read::new(&bytes);
+    let all = read.document["extensions"]["VRMC_springBone"]["springs"].as_array().unwrap();
+    assert_eq!(all.len(), 3);
+    for spring in all {
+        let bones = spring["joints"].as_array().unwrap();
+        assert_eq!(bones.len(), 5);
+        for pair in bones.windows(2) {
+            let children = &read.document["nodes"][pair[0]["node"].as_u64().unwrap() as usize]["children"];
+            assert_eq!(children, &serde_json::json!([pair[1]["node"]]));
+        }
+    }
+    // The hair is bound as without them.
+    for n in 0..FRAMES {
+        let expected = in_gltf(&bent(&hair(), n, 0.0), n);
+        assert!(read.skinned(n as usize).iter().zip(&expected).all(|(a, b)| a.distance(*b) < 0.01), "frame {n}");
+    }
 }

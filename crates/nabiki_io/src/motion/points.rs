@@ -50,7 +50,6 @@ pub fn of_points(source: &MotionSource, mesh: &Path, rest: &[Vec3], frame_rate: 
 /// The rotation is found as M. Müller, J. Bender, N. Chentanez and M. Macklin extract it from a matrix (2016): turning by
 /// the moment of the matrix's columns about its own.
 fn fitted(rest: &[Vec3], now: &[Vec3], from: DQuat) -> Sample {
-    const ROUNDS: usize = 200;
     let middle = |of: &[Vec3]| of.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / of.len() as f64;
     let (before, after) = (middle(rest), middle(now));
     let mut spread = DMat3::ZERO;
@@ -58,19 +57,17 @@ fn fitted(rest: &[Vec3], now: &[Vec3], from: DQuat) -> Sample {
         let (a, b) = (a.as_dvec3() - before, b.as_dvec3() - after);
         spread += DMat3::from_cols(b * a.x, b * a.y, b * a.z);
     }
-    let mut rotation = from;
-    for _ in 0..ROUNDS {
-        let own = DMat3::from_quat(rotation);
-        let pairs = [(own.x_axis, spread.x_axis), (own.y_axis, spread.y_axis), (own.z_axis, spread.z_axis)];
-        let moment: DVec3 = pairs.iter().map(|(a, b)| a.cross(*b)).sum();
-        let along: f64 = pairs.iter().map(|(a, b)| a.dot(*b)).sum();
-        let turn = moment / (along.abs() + f64::MIN_POSITIVE);
-        let angle = turn.length();
-        if angle < 1e-14 || !angle.is_finite() {
-            break;
+    // A rotation by half a turn from the best one may also be in balance.
+    let halves = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| DQuat::from_axis_angle(axis, std::f64::consts::PI) * from);
+    let mut best = turned_to(&spread, from);
+    for other in halves {
+        let found = turned_to(&spread, other);
+        // Only one that is clearly better, so that rounding does not choose.
+        if found.1 > best.1 + 1e-9 * best.1.abs() {
+            best = found;
         }
-        rotation = (DQuat::from_axis_angle(turn / angle, angle) * rotation).normalize();
     }
+    let mut rotation = best.0;
     // Points that have not moved are carried by exactly nothing.
     if rest == now {
         rotation = DQuat::IDENTITY;
@@ -79,9 +76,43 @@ fn fitted(rest: &[Vec3], now: &[Vec3], from: DQuat) -> Sample {
     Sample { position, rotation }
 }
 
+/// The rotation in balance that is reached from one, and how well it fits: the sum of the lengths along it.
+fn turned_to(spread: &DMat3, from: DQuat) -> (DQuat, f64) {
+    const ROUNDS: usize = 200;
+    let mut rotation = from;
+    let mut fit = f64::NEG_INFINITY;
+    for _ in 0..ROUNDS {
+        let own = DMat3::from_quat(rotation);
+        let pairs = [(own.x_axis, spread.x_axis), (own.y_axis, spread.y_axis), (own.z_axis, spread.z_axis)];
+        let moment: DVec3 = pairs.iter().map(|(a, b)| a.cross(*b)).sum();
+        fit = pairs.iter().map(|(a, b)| a.dot(*b)).sum();
+        let turn = moment / (fit.abs() + f64::MIN_POSITIVE);
+        let angle = turn.length();
+        if angle < 1e-14 || !angle.is_finite() {
+            break;
+        }
+        rotation = (DQuat::from_axis_angle(turn / angle, angle) * rotation).normalize();
+    }
+    (rotation, fit)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A box that is turned by half a turn is found there, though that, too, is in balance.
+    #[test]
+    fn half_a_turn_is_found() {
+        let corner = |i: usize| Vec3::new((i & 1) as f32 * 4.0, (i >> 1 & 1) as f32 * 2.0, (i >> 2) as f32);
+        let rest: Vec<Vec3> = (0..8).map(corner).collect();
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            let now: Vec<Vec3> = rest.iter().map(|&p| 2.0 * p.dot(axis) * axis - p).collect();
+            let Sample { position, rotation } = fitted(&rest, &now, DQuat::IDENTITY);
+            for (a, b) in rest.iter().zip(&now) {
+                assert!((rotation * a.as_dvec3() + position).distance(b.as_dvec3()) < 1e-6, "{axis}");
+            }
+        }
+    }
 
     #[test]
     fn points_that_move_rigidly_are_carried_to_rounding() {

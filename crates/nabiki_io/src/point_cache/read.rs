@@ -63,8 +63,7 @@ impl PointFrames {
             file.read_exact(&mut bytes).map_err(|_| Error::new("ends within its header: the file is cut off"))?;
             Ok(bytes)
         };
-        let (points, frames, beginning);
-        let mut times = Vec::new();
+        let (points, frames, first, step);
         match kind {
             Kind::Pc2 => {
                 let magic = [word()?, word()?, word()?].concat();
@@ -75,34 +74,39 @@ impl PointFrames {
                     ));
                 }
                 points = kind.whole(word()?);
-                let (first, step) = (f64::from(kind.number(word()?)), f64::from(kind.number(word()?)));
+                (first, step) = (f64::from(kind.number(word()?)), f64::from(kind.number(word()?)));
                 frames = kind.whole(word()?);
-                beginning = 32;
                 if !(first.is_finite() && step.is_finite() && step > 0.0) {
                     return Err(Error::new(format!(
                         "begins at frame {first} in steps of {step}: steps must be above 0"
                     )));
                 }
-                times.extend((0..frames.max(0)).take(count_of(length)).map(|n| first + f64::from(n) * step));
             }
             Kind::Mdd => {
                 (frames, points) = (kind.whole(word()?), kind.whole(word()?));
-                beginning = 8 + 4 * frames.max(0) as u64;
-                for _ in 0..frames.max(0) {
-                    times.push(f64::from(kind.number(word()?)));
-                }
+                (first, step) = (0.0, 1.0);
             }
         }
-        if points < 1 || frames < 1 {
+        let (Ok(count @ 1..), Ok(vertices @ 1..)) = (u64::try_from(frames), u64::try_from(points)) else {
             return Err(Error::new(format!("holds {frames} frames of {points} points: both must be above 0")));
-        }
-        let wanted = beginning + 12 * points as u64 * frames as u64;
-        if length < wanted {
+        };
+        let first_at = if kind == Kind::Pc2 { 32 } else { 8 + 4 * count };
+        let wanted = vertices.checked_mul(12).and_then(|bytes| bytes.checked_mul(count)?.checked_add(first_at));
+        if wanted.is_none_or(|wanted| length < wanted) {
+            let wanted = wanted.map_or_else(|| "more than any file has".to_owned(), |wanted| wanted.to_string());
             let line =
                 format!("has {length} bytes, but {frames} frames of {points} points take {wanted}: it is cut off");
             return Err(Error::new(line));
         }
-        Ok(Self { file, kind, points: points as usize, times, first_at: beginning })
+        let times = match kind {
+            Kind::Pc2 => (0..count).map(|n| first + n as f64 * step).collect(),
+            Kind::Mdd => {
+                let mut bytes = vec![0; 4 * count as usize];
+                file.read_exact(&mut bytes)?;
+                bytes.as_chunks().0.iter().map(|&word| f64::from(kind.number(word))).collect()
+            }
+        };
+        Ok(Self { file, kind, points: vertices as usize, times, first_at })
     }
 
     /// Number of points of each frame.
@@ -149,9 +153,4 @@ impl PointFrames {
         let part = ((time - times[before]) / (times[next] - times[before])) as f32;
         Ok(points.iter().zip(self.frame(next)?).map(|(a, b)| a.lerp(b, part)).collect())
     }
-}
-
-/// The most frames that a file of this length may hold.
-fn count_of(length: u64) -> usize {
-    (length / 12) as usize
 }

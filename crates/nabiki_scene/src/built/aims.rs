@@ -127,6 +127,7 @@ pub(super) fn aims<'a>(
                 AimShape::Curves(of_file.curves.clone())
             }
         };
+        scene.check_aim(settings, &name).map_err(|refused| at.refusal(refused))?;
         let region = settings.region.as_ref().and_then(|region| scene.region_named(region));
         aims.push(Aim { name, lead: settings.lead(earth), region, shape });
     }

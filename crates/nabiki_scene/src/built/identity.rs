@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use nabiki::Pose;
 use nabiki::aim::AimShape;
 use nabiki::body::BodyWay;
 use nabiki::dynamics::{Form, Motion};
 use nabiki::free_form::FreeMotion;
 use nabiki::pseudo_force::PseudoForce;
+use nabiki::{Mesh, Pose};
 use nabiki_io::cache::Piece;
 use nabiki_io::identity::{Digest, SceneId, StrandSum};
 use nabiki_io::skin;
@@ -93,6 +93,7 @@ impl BuiltScene {
         }
         if let Some(file) = self.bent_head.file() {
             add_skin(&mut digest, &file, &self.bent_head.frames)?;
+            add_mesh(&mut digest, &self.model.head.mesh);
         }
         Ok(digest.finish())
     }
@@ -115,6 +116,10 @@ impl BuiltScene {
         } else {
             // Groups of grown hair follow from its settings, and only some members are known.
             self.groom.maps().for_each(|map| digest.bytes("map", &map.bytes()));
+            if self.groom.maps().next().is_some() {
+                let uvs = self.model.head.mesh.corner_uvs.as_deref().unwrap_or_default();
+                add_numbers(digest, "uvs", bytemuck::cast_slice(uvs.as_flattened()));
+            }
         }
         // Accelerations are per second.
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;
@@ -124,7 +129,10 @@ impl BuiltScene {
             let built = if i > 0 { solid.next().map(|(built, _)| built) } else { None };
             match built.and_then(|built| Some((built.file.as_deref()?, &built.frames))).filter(|(_, of)| !of.is_empty())
             {
-                Some((file, frames)) => add_skin(digest, file, frames)?,
+                Some((file, frames)) => {
+                    add_skin(digest, file, frames)?;
+                    built.into_iter().for_each(|built| add_mesh(digest, &built.mesh));
+                }
                 // The head's skin is added above.
                 None if i == 0 && self.bent_head.file().is_some() => {}
                 None => body.shape.obstacle().identify(&mut |numbers| add_numbers(digest, "distance", numbers)),
@@ -166,6 +174,12 @@ fn add_skin(digest: &mut Digest, file: &Path, frames: &[Vec<Vec3>]) -> Result<()
         add_numbers(digest, "skin", bytemuck::cast_slice(frame));
     }
     Ok(())
+}
+
+/// A mesh at rest, whose file may be another than that of its motion.
+fn add_mesh(digest: &mut Digest, mesh: &Mesh) {
+    add_numbers(digest, "rest", bytemuck::cast_slice(&mesh.positions));
+    digest.bytes("triangles", bytemuck::cast_slice(&little_endian(mesh.triangles.as_flattened())));
 }
 
 fn add_numbers(digest: &mut Digest, name: &str, numbers: &[f32]) {

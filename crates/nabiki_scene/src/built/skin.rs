@@ -1,4 +1,4 @@
-//! The skin of a head that bends: read with the head's motion, from the file that holds both.
+//! The skin of a head that bends: read with the head's motion, from the file that holds both, or from a point cache.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};

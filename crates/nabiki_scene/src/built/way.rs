@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use nabiki::Pose;
+use nabiki::{Pose, SettingError};
 use nabiki_io::motion::{self, HeadMotion, MotionSource};
 use nabiki_io::point_cache::is_point_cache;
 use nabiki_io::{Placement, exchange, mesh};
@@ -68,6 +68,15 @@ impl WayInputs {
             ..self.source.clone()
         };
         let of_points = is_point_cache(&source.file);
+        let given = [
+            ("unit_cm", source.unit_cm.map(|unit| unit.to_string())),
+            ("up", source.up.map(|axis| axis.to_string())),
+            ("facing", source.facing.map(|axis| axis.to_string())),
+        ];
+        if let Some((part, Some(value))) = given.into_iter().find(|(_, given)| of_points && given.is_some()) {
+            let remedy = "a point cache has the unit and axes of its mesh: remove it";
+            return Err(at.refusal(SettingError::new(format!("{key}.{part}"), value, remedy)));
+        }
         let of_mesh = of_points || self.mesh.as_ref() == Some(&source.file) && holds_scenes(&source.file);
         let facing = source.facing.or(of_mesh.then_some(self.placement.facing));
         let unit_cm = source.unit_cm.or(of_mesh.then_some(100.0 * self.placement.unit.metres()));

@@ -63,8 +63,9 @@ impl AimSettings {
             0 => return refused(&at.key("file"), "", "is missing: give file, toward, or groom = true"),
             _ => {
                 let key = if given[1] { "toward" } else { "groom" };
-                let remedy = "an aim has one shape: give one of file, toward and groom";
-                return refused(&at.key(key), if given[1] { "given too" } else { "true" }, remedy);
+                let remedy = "an aim has one shape: give only one of file, toward and groom";
+                let value = self.toward.map_or_else(|| "true".to_owned(), |point| format!("{point}"));
+                return refused(&at.key(key), value, remedy);
             }
         }
         if let Some(frame) = self.frame.filter(|_| !given[0]) {

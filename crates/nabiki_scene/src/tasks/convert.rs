@@ -122,7 +122,7 @@ fn given_space(options: &ConvertOptions) -> impl Iterator<Item = &'static str> {
 
 /// Reports options without effect if the output cannot declare unit and axes.
 fn advise_space(options: &ConvertOptions, watch: &mut dyn Watch) {
-    if exchange::is_usd(&options.output) {
+    if moving::states_space(&options.output) {
         return;
     }
     let output = options.output.display();
@@ -249,15 +249,18 @@ fn one_frame(options: &ConvertOptions, mut input: Input, watch: &mut dyn Watch) 
     let (hair, pose) = input.read(options)?;
     super::unread(&options.input, &hair.attributes.unread, watch);
     let to_tools = moving::is_moving(output);
-    let least = if to_tools { 0 } else { hair::least_bytes(output, &hair)? };
-    place::room(output, least, watch)?;
+    if !to_tools {
+        place::room(output, hair::least_bytes(output, &hair)?, watch)?;
+    }
     let declared = input.declared_space()?;
     let mut losses = if to_tools {
         let said = if let Input::Cache(_) = input { declared } else { said(options, declared)? };
         let (number, rate) = input.number(options)?;
         let mut export = exchange::still(&hair, said);
         (export.first_frame, export.frame_rate) = (options.first_frame.unwrap_or(number), rate);
-        exchange::write_still(output, export, &input.world_from_hair(&pose))?;
+        export.faces_x = matches!(&input, Input::Cache(cache) if placement(cache).is_none());
+        place::room(output, moving::least_bytes(output, &export, false), watch)?;
+        moving::write_still(output, export, &input.world_from_hair(&pose), options.chains)?;
         moving::losses(output, &hair)
     } else {
         hair::write(output, &hair)?
@@ -291,7 +294,7 @@ fn finish(options: &ConvertOptions, losses: Vec<String>, holds: String, watch: &
 
 /// Unit and up axis, if the output cannot declare them.
 fn unsaid_space(options: &ConvertOptions, DeclaredSpace { unit, up }: DeclaredSpace) -> Vec<String> {
-    if exchange::is_usd(&options.output) {
+    if moving::states_space(&options.output) {
         return Vec::new();
     }
     let unit = unit.filter(|unit| unit.cm != 1.0);
@@ -322,7 +325,7 @@ fn said(options: &ConvertOptions, in_file: DeclaredSpace) -> Result<DeclaredSpac
         unit: options.unit.or(in_file.unit),
         up: if options.z_up { Some(Axis::PlusZ) } else { in_file.up.or(Some(Axis::PlusY)) },
     };
-    if said.unit.is_none() && exchange::is_usd(&options.output) {
+    if said.unit.is_none() && moving::states_space(&options.output) {
         return Err(Error::refused(format!(
             "{}: its unit is not in the file, but {} must name one: give --unit, for example --unit m",
             options.input.display(),
@@ -363,8 +366,10 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     let layer = options.layer.as_deref();
     let curves = layer.map(|prim| under_layer(options, prim, &cache).cloned()).transpose()?;
     let mut hair = cache.hair(0)?;
-    let tip_first = hair.attributes.tip_first.clone();
-    hair = hair.as_in_source();
+    let tip_first = hair.attributes.tip_first.clone().filter(|_| !moving::is_root_first(output));
+    if tip_first.is_some() {
+        hair = hair.as_in_source();
+    }
     let origin = cache.header().origin.clone();
     let placement = placement(&cache);
     let mut export = exchange::export(&hair, cache.header().frame_rate, placement.as_ref());

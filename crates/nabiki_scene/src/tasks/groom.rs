@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::DAffine3;
 use nabiki_io::exchange::{self, DeclaredSpace};
 use nabiki_io::hair;
+use nabiki_io::moving::{self, ChainOptions};
 
 use crate::built::Shown;
 use crate::error::Result;
@@ -28,7 +29,7 @@ pub fn groom(scene: Scene, shown: Shown, output: &Path, watch: &mut dyn Watch) -
         let mut export = exchange::still(&built.groom.hair, DeclaredSpace::default());
         export.rest = true;
         place::room(output, exchange::least_bytes(output, &export, 1, false), watch)?;
-        exchange::write_still(output, export, &DAffine3::IDENTITY)?;
+        moving::write_still(output, export, &DAffine3::IDENTITY, ChainOptions::default())?;
         exchange::losses(output, &built.groom.hair)
     } else {
         place::room(output, hair::least_bytes(output, &built.groom.hair)?, watch)?;

@@ -302,7 +302,9 @@ pub(super) fn bend(
         if let Some(AimRow { toward, hold }) = aims.map(|aims| aims[i]) {
             for lane in 0..LANES {
                 let led = hold::moment_lane(hold.0[lane], lane_of(&toward, lane), lane_of(&direction, lane));
-                let all = add(lane_of(&held, lane), led);
+                // Strands that no aim leads keep their bits, including the sign of 0.
+                let was = lane_of(&held, lane);
+                let all = if hold.0[lane] > 0.0 { add(was, led) } else { was };
                 set_lane(&mut held, lane, all);
             }
         }

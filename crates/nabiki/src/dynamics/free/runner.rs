@@ -8,7 +8,7 @@ use super::contact::PlacedBody;
 use super::grid::Crowd;
 use super::kernel::FreeState;
 use super::packed::{Packed, Plan};
-use crate::dynamics::row::{LANES, Row};
+use crate::dynamics::row::{LANES, PointRow, Row};
 use crate::dynamics::stability::{Named, unstable};
 use crate::dynamics::state::{Header, Reader, Writer};
 use crate::dynamics::sweep::{Pages, sweep};
@@ -30,8 +30,10 @@ pub(in crate::dynamics) struct Runner {
 }
 
 impl Runner {
-    /// Bytes of a row of sixteen segments.
-    pub const BYTES_A_ROW: usize = Packed::BYTES_A_ROW;
+    /// Bytes of a row of sixteen segments that so many aims lead.
+    pub fn bytes_a_row(aims: usize) -> usize {
+        Packed::BYTES_A_ROW + aims * size_of::<PointRow>()
+    }
 
     /// Hair at rest in the given shape, whose settings have been checked. `known`: the same hair with other settings.
     pub fn new(

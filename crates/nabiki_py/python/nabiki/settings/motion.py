@@ -719,8 +719,8 @@ class AimSettings(Table):
     @property
     def strength(self) -> float | str:
         """Strength of the pull. "3 g" pulls with three times the weight of the hair on earth; a number is in F. Against
-        a force F, limp hair settles along F + S t, where t is the direction of the aim. Number of at least 0 or "...
-        g"; default: "3 g".
+        a force F, limp hair settles along F + S t, where t is the direction of the aim. Number, 0 to 1000000000, or
+        "... g"; default: "3 g".
         """
         value: float | str = self._get('strength')
         return value
