@@ -71,7 +71,8 @@ fn every_key_of_a_scene_has_a_field_with_help() {
 }
 
 /// Settings whose range depends on another one.
-const BOUND_BY_ANOTHER: [&str; 11] = [
+const BOUND_BY_ANOTHER: [&str; 12] = [
+    "aim.from",
     "hair.strands",
     "free.settle",
     "turbulence.swirl_size",
