@@ -6,13 +6,12 @@ use super::aimed::Aimed;
 use super::chain::{Chain, ROUNDS_PRESSED};
 use super::common::Common;
 use super::contact::{Moving, PlacedBody, Touch, kept_from};
-use crate::aim::calming;
 use crate::body::Surface;
 use crate::dynamics::Dynamics;
 use crate::dynamics::air::Air;
 use crate::dynamics::free::grid::Crowd;
 use crate::dynamics::free::pulls::{neighbours, weight};
-use crate::dynamics::free::segment::{FreeSegment, free_segments, swing_of};
+use crate::dynamics::free::segment::{FreeSegment, free_segments};
 use crate::dynamics::free::{ANSWER, ROUNDS};
 use crate::dynamics::ride::Ride;
 use crate::error::SettingError;
@@ -141,6 +140,7 @@ impl<S: Scalar> Strand<S> {
         s: usize,
     ) -> Result<Self, SettingError> {
         let segments = free_segments(dynamics, free, strand, s)?;
+        let aims = Aimed::of(free, strand, &segments, dynamics.skin.as_deref());
         let anchor = segments.iter().take_while(|segment| segment.lightness == 0.0).count();
         let segments: Vec<_> = segments.into_iter().map(|moved_by| Segment::new(moved_by, springs)).collect();
         let positions: Vec<Vector<S>> = strand.iter().map(|p| p.as_dvec3().into()).collect();
@@ -163,7 +163,7 @@ impl<S: Scalar> Strand<S> {
             anchor,
             own,
             on_skin: place.map(|place| (place, strand[anchor].as_dvec3())),
-            aims: Aimed::of(free, strand, dynamics.skin.as_deref()),
+            aims,
             ride: None,
             is_shifted: false,
         };
@@ -299,10 +299,8 @@ impl<S: Scalar> Strand<S> {
     /// Slows its nodes while aims lead it.
     #[inline(always)]
     fn calm(&mut self, frame: u32) {
-        let strength = self.aims.strength(frame);
-        if strength > 0.0 {
-            let segments: Vec<FreeSegment> = self.segments.iter().map(|segment| segment.moved_by).collect();
-            let calming = calming(swing_of(&segments), strength);
+        let calming = self.aims.calming(frame);
+        if calming > 0.0 {
             self.chain.drag.iter_mut().for_each(|drag| *drag += S::from(calming));
         }
     }
