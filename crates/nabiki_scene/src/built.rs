@@ -323,6 +323,11 @@ impl BuiltScene {
         }
     }
 
+    /// Mean length of the scene's hair, shown or not (cm); free form only.
+    pub(crate) fn mean_length(&self) -> f64 {
+        dynamics::mean_lengths(&self.groom.first).strand
+    }
+
     /// Number of frame 0 on the timeline of the shot, from which exports count: that of the scene, or else of the file
     /// of the head's motion, or else of the hair's file; 0 if none has one.
     pub fn first_frame(&self) -> i32 {

@@ -168,10 +168,8 @@ fn springs_of(built: &BuiltScene) -> Result<Springs> {
             "--export-springs: springs are for hair that comes back to rest: set motion.form = \"free\"",
         ));
     };
-    let lengths: Vec<f64> = built.strands().lengths().map(f64::from).collect();
-    let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
     // The unit of the force, in m/s^2.
-    let unit = 0.01 * EARTH_CM_PER_S2 / f64::from(earth_gravity(&built.dynamics, mean));
+    let unit = 0.01 * EARTH_CM_PER_S2 / f64::from(earth_gravity(&built.dynamics, built.mean_length()));
     let back = (free.form.hold.mean() + f64::from(free.form.gravity)) * unit;
     let settle = free.form.settle.mean() * f64::from(built.dynamics.motion.slow) / built.scene.frame_rate();
     if settle == 0.0 {

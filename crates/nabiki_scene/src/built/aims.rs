@@ -107,6 +107,7 @@ pub(super) fn aims<'a>(
     let (mut aims, mut files) = (Vec::new(), Vec::new());
     for (i, settings) in scene.aims.iter().enumerate() {
         let name = format!("aim[{i}]");
+        scene.check_aim(settings, &name).map_err(|refused| at.refusal(refused))?;
         let shape = match settings {
             AimSettings { toward: Some(point), .. } => AimShape::Toward(*point),
             AimSettings { groom: true, .. } => AimShape::Groom,
@@ -127,7 +128,6 @@ pub(super) fn aims<'a>(
                 AimShape::Curves(of_file.curves.clone())
             }
         };
-        scene.check_aim(settings, &name).map_err(|refused| at.refusal(refused))?;
         let region = settings.region.as_ref().and_then(|region| scene.region_named(region));
         aims.push(Aim { name, lead: settings.lead(earth), region, shape });
     }

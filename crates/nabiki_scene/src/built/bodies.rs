@@ -104,13 +104,12 @@ impl Stage for BuiltBody {
             Some(source) => {
                 let (scene, source) = (scene.clone(), source.clone());
                 let groups = settings.groups.clone();
-                let rate = source.frames_per_second.unwrap_or(*frame_rate);
                 let motion =
                     WayInputs { file: scene, source, mesh: file.clone(), groups, placement, frame_rate: *frame_rate };
                 let read = motion.read(&format!("{name}.motion"), at)?;
                 if let Some(files) = motion.of_mesh() {
                     let (which, clip) = (&settings.groups, motion.source.clip.as_str());
-                    let times = (&read.poses[..], read.times, rate);
+                    let times = (&read.poses[..], read.times, motion.rate());
                     bending = Some(files.motion.clone());
                     frames = frames_of(&files, (which, clip), &placement, times, (*last, mesh.positions.len()), at)?;
                 }

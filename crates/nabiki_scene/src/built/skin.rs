@@ -60,10 +60,10 @@ impl Stage for Bent {
     fn make(inputs: BentInputs, at: At<'_>) -> Result<Self> {
         let BentInputs { model, way, last } = &inputs;
         let mut frames = Vec::new();
-        if let (Some((files, clip, times)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source) {
+        if let (Some((files, clip, times, rate)), HeadSource::Imported(head)) = (way.of_mesh(), &model.inputs.source) {
             let vertices = model.head.mesh.positions.len();
             let groups = &head.groups;
-            let motion = (&way.poses[..], times, way.rate());
+            let motion = (&way.poses[..], times, rate);
             frames = frames_of(&files, (groups, clip), &model.placement, motion, (*last as u32, vertices), at)?;
         }
         Ok(Self { inputs, frames, body: Sampled::default() })

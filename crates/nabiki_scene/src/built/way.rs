@@ -106,6 +106,11 @@ pub(crate) fn holds_scenes(file: &Path) -> bool {
 }
 
 impl WayInputs {
+    /// Frames per second of a motion that counts frames.
+    pub fn rate(&self) -> f64 {
+        self.source.frames_per_second.unwrap_or(self.frame_rate)
+    }
+
     /// The files of the mesh and of its motion, if that may bend it: a point cache, or the mesh's own file, which carries it as it
     /// lies there.
     pub fn of_mesh(&self) -> Option<SkinFiles<'_>> {
@@ -146,16 +151,11 @@ impl Stage for Way {
 }
 
 impl Way {
-    /// Frames per second of a motion that counts frames.
-    pub(super) fn rate(&self) -> f64 {
-        let given = |inputs: &WayInputs| inputs.source.frames_per_second.unwrap_or(inputs.frame_rate);
-        self.inputs.as_ref().map_or(24.0, given)
-    }
-
-    /// The files of mesh and motion, the clip, and the motion's times of frame 0 and between two frames (s), if its skin may bend.
-    pub(super) fn of_mesh(&self) -> Option<(SkinFiles<'_>, &str, [f64; 2])> {
+    /// The files of mesh and motion, the clip, the motion's times of frame 0 and between two frames (s), and its frames per second
+    /// if it counts frames; if its skin may bend.
+    pub(super) fn of_mesh(&self) -> Option<(SkinFiles<'_>, &str, [f64; 2], f64)> {
         let inputs = self.inputs.as_ref()?;
-        Some((inputs.of_mesh()?, inputs.source.clip.as_str(), self.times))
+        Some((inputs.of_mesh()?, inputs.source.clip.as_str(), self.times, inputs.rate()))
     }
 
     /// Refuses a motion that ends before the scene does.
