@@ -92,6 +92,7 @@ pub mod head;
 mod key;
 pub mod locks;
 pub mod mesh;
+mod nearest;
 pub mod obstacle;
 pub mod pose;
 mod prefetch;

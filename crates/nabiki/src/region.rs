@@ -8,6 +8,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 
 use crate::error::SettingError;
+use crate::nearest::Nearest;
 use crate::profile::Profile;
 use crate::setting::{Place, refused};
 use crate::settings;
@@ -21,8 +22,8 @@ const MOST: f64 = 10.0;
 settings! {
     /// Hair that moves differently from the rest, such as a fringe that stays in the wind.
     ///
-    /// A strand belongs to the region by its group, by an attribute of the hair, by a painted map, or if its root is near
-    /// a point or line; with several of these, by all of them. Each factor multiplies a setting of `[free]`: one number,
+    /// A strand belongs to the region by its group, by an attribute of the hair, by a painted map, by painted points, or if
+    /// its root is near a point or line; with several of these, by all of them. Each factor multiplies a setting of `[free]`: one number,
     /// or a list from root to tip. Where regions overlap, their factors multiply.
     pub struct Region where reaches_hair {
         /// Name of the region, for `info`.
@@ -39,6 +40,11 @@ settings! {
         /// place by its own root UVs, or else by the UVs of the head's mesh where it grows.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub map: Option<PathBuf> = None => "Map", open "none";
+        /// Painted points of the skin, as the studio's brush leaves them: x, y, z in the space of the head at rest (cm), and
+        /// how much hair there belongs to the region, 0 to 1. A root takes the weights of the three points nearest to it,
+        /// and belongs to the region only up to `within` from the nearest one, fading over `soft`.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub painted: Vec<[f32; 4]> = Vec::new() => "Painted", least -FARTHEST, most FARTHEST;
         /// Where the region is, in the space of the head at rest.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub near: Option<Vec3> = None => "Near", unit "cm", least -FARTHEST, most FARTHEST, open "everywhere";
@@ -70,13 +76,23 @@ impl Region {
     }
 
     /// How much a strand with this root (head space at rest, cm) belongs to the region by its place: 1 inside, 0 outside,
-    /// and 1 - 3 x^2 + 2 x^3 at a share x of the border's width. 1 everywhere without `near`.
+    /// and 1 - 3 x^2 + 2 x^3 at a share x of the border's width. 1 everywhere without `near` and `painted`.
     pub fn weight(&self, root: Vec3) -> f64 {
-        let Some(near) = self.near.map(|near| near.as_dvec3()) else { return 1.0 };
         let root = root.as_dvec3();
+        let near = self.near.map_or(1.0, |near| self.inside(root.distance(self.on_line(near.as_dvec3(), root))));
+        if near == 0.0 || self.painted.is_empty() { near } else { near * self.painted_weight(root) }
+    }
+
+    /// The point of the line from `near` to `to` that is nearest to the root.
+    fn on_line(&self, near: DVec3, root: DVec3) -> DVec3 {
         let line = self.to.map_or(DVec3::ZERO, |to| to.as_dvec3() - near);
         let along = ((root - near).dot(line) / line.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let beyond = root.distance(near + along * line) - f64::from(self.within);
+        near + along * line
+    }
+
+    /// The weight at this distance from the place of the region.
+    fn inside(&self, distance: f64) -> f64 {
+        let beyond = distance - f64::from(self.within);
         match f64::from(self.soft) {
             _ if beyond <= 0.0 => 1.0,
             soft if beyond < soft => 1.0 - rise(beyond / soft),
@@ -84,20 +100,48 @@ impl Region {
         }
     }
 
+    /// The weight that is painted at this root.
+    fn painted_weight(&self, root: DVec3) -> f64 {
+        let mut nearest = Nearest::default();
+        for (i, &[x, y, z, _]) in self.painted.iter().enumerate() {
+            nearest.offer(root.distance(Vec3::new(x, y, z).as_dvec3()), i as u32);
+        }
+        let inside = self.inside(nearest.distance());
+        if inside == 0.0 {
+            return 0.0;
+        }
+        let weights = nearest.weights();
+        let sum: f64 = weights.iter().map(|of| of.1).sum();
+        let mixed: f64 = weights.iter().map(|&(i, of)| of * f64::from(self.painted[i as usize][3])).sum();
+        inside * (mixed / sum).min(1.0)
+    }
+
     /// Refuses a region of no hair in particular, a line without a length, and a place that no root can be in.
     fn reaches_hair(&self, at: &Place) -> Result<(), SettingError> {
-        let Some(near) = self.near else {
-            return match self.to {
-                Some(to) => refused(&at.key("to"), to, "is the end of a line that begins at near: add near"),
-                None if self.has_members() => Ok(()),
-                None => Err(SettingError::new(&at.key("near"), "", "is missing: give near, groups, attribute or map")),
-            };
-        };
-        if let Some(to) = self.to.filter(|&to| to == near) {
+        if let (None, Some(to)) = (self.near, self.to) {
+            return refused(&at.key("to"), to, "is the end of a line that begins at near: add near");
+        }
+        if self.near.is_none() && self.painted.is_empty() {
+            let remedy = "is missing: give near, groups, attribute, map or painted";
+            return if self.has_members() { Ok(()) } else { Err(SettingError::new(&at.key("near"), "", remedy)) };
+        }
+        if let Some(to) = self.to.filter(|&to| Some(to) == self.near) {
             return refused(&at.key("to"), to, "must differ from near: leave it out for a region around a point");
         }
         if self.within + self.soft == 0.0 {
             return refused(&at.key("within"), self.within, "the region reaches no hair: give within or soft a width");
+        }
+        if let Some(i) = self.painted.iter().position(|point| !(0.0..=1.0).contains(&point[3])) {
+            let key = at.key("painted");
+            return refused(
+                &key.entry(i),
+                format!("{:?}", self.painted[i]),
+                "the fourth number is a weight, from 0 to 1",
+            );
+        }
+        if !self.painted.is_empty() && self.painted.iter().all(|point| point[3] == 0.0) {
+            let remedy = "all points have weight 0, so the region reaches no hair: give one of them a weight";
+            return Err(SettingError::new(&at.key("painted"), "", remedy));
         }
         Ok(())
     }
@@ -206,8 +250,50 @@ mod tests {
         assert_eq!(belongs(&[0.0]), ([1.0; 3], 1.0, 7.0));
     }
 
+    fn painted(points: &[(Vec3, f32)]) -> Region {
+        let painted = points.iter().map(|&(at, weight)| [at.x, at.y, at.z, weight]).collect();
+        Region { near: None, painted, ..region() }
+    }
+
+    #[test]
+    fn painted_weights_hold_at_their_points_and_change_smoothly_between_them() {
+        let points: Vec<(Vec3, f32)> =
+            (0..8).map(|i| (Vec3::new((i % 4) as f32, 0.4 * (i / 4) as f32, 0.0), (i * 3 % 8) as f32 / 7.0)).collect();
+        let region = painted(&points);
+        for &(at, weight) in &points {
+            assert!((region.weight(at) - f64::from(weight)).abs() < 1e-6, "{at}");
+        }
+        // Also where another three points become the nearest.
+        let along = |i: u32| region.weight(Vec3::new(i as f32 * 1e-3, 0.15, 0.0));
+        for i in 0..3000 {
+            let (a, b) = (along(i), along(i + 1));
+            assert!((0.0..=1.0).contains(&a) && (a - b).abs() < 0.02, "{i}: {a} {b}");
+        }
+    }
+
+    #[test]
+    fn painted_points_reach_as_far_as_places_do_and_add_to_them() {
+        let one = painted(&[(NEAR, 0.5)]);
+        for far in [0.0, 1.9, 3.0, 4.0, 5.9, 7.0] {
+            let at = NEAR + far * Vec3::X;
+            assert_eq!(one.weight(at), 0.5 * region().weight(at), "{far}");
+            assert_eq!(Region { near: Some(NEAR), ..one.clone() }.weight(at), 0.5 * region().weight(at).powi(2));
+        }
+        // The order in which they are written does not matter.
+        let points: Vec<(Vec3, f32)> = (0..6).map(|i| (Vec3::new(i as f32, 1.0, 0.3), 1.0 / (i + 1) as f32)).collect();
+        let back: Vec<(Vec3, f32)> = points.iter().rev().copied().collect();
+        for x in 0..50 {
+            let at = Vec3::new(0.11 * x as f32, 1.4, 0.0);
+            assert!((painted(&points).weight(at) - painted(&back).weight(at)).abs() < 1e-12);
+        }
+    }
+
     #[test]
     fn what_reaches_no_hair_is_refused() {
+        let of_painted = |weight| painted(&[(NEAR, weight)]).check_at("region[0]").map_err(|e| e.to_string());
+        assert_eq!(of_painted(0.1), Ok(()));
+        assert!(of_painted(0.0).unwrap_err().starts_with("region[0].painted"));
+        assert!(of_painted(1.5).unwrap_err().starts_with("region[0].painted[0] = [1.0, 2.0, 3.0, 1.5]"));
         let refused = |region: Region| region.check_at("region[0]").unwrap_err().to_string();
         assert!(refused(Region { within: 0.0, soft: 0.0, ..region() }).starts_with("region[0].within = 0"));
         assert!(refused(Region { to: Some(NEAR), ..region() }).starts_with("region[0].to = "));

@@ -144,7 +144,9 @@ pub fn convert(args: &Convert, terminal: &mut Terminal) -> Result<()> {
 pub fn info(args: &Info) -> Result<()> {
     let info = nabiki_scene::info::info(&args.file)?;
     let text = if args.json { json(&info)? } else { info.to_string() };
-    say::answer(text)
+    say::answer(text)?;
+    // What is wrong with a scene comes after all that is known of it.
+    info.problem().map_or(Ok(()), |problem| Err(Error::refused(problem)))
 }
 
 pub fn schema(args: &Schema) -> Result<()> {

@@ -96,6 +96,9 @@ fn names_of_files_keys_and_arguments() {
     )
     .unwrap();
     said(&folder, &["info", "text.toml"]);
+    let groups = "[motion]\nform = \"free\"\n[[free.regions]]\ngroups = [\"a\\u001b[2J\\n\"]\n";
+    fs::write(folder.path().join("groups.toml"), groups).unwrap();
+    refused(&folder, &["info", "groups.toml"]);
     refused(&folder, &["simulate", "text.toml", "-o", "m.nabiki"]);
     refused(&folder, &["run", GUST, "--set", "a\u{1b}[2J"]);
     for words in [["\u{1b}[2J", "x"], ["run", "--\u{1b}[2J\u{202e}"], ["simulate", "--threads=\u{9b}2"]] {

@@ -44,6 +44,7 @@ name = "fringe"
 groups = ["top"]
 attribute = "painted"
 map = "m.png"
+painted = [[8, 4, 0, 1]]
 near = [8, 4, 0]
 to = [8, 4, 1]
 [motion]
@@ -61,6 +62,8 @@ frame = 4
 through = 9
 [[aim]]
 toward = [1, 2, 3]
+[[aim]]
+curves = [[[8, 4, 0], [9, 4, 0]]]
 [[body]]
 mesh = "b.obj"
 {LIE}motion = {MOTION}

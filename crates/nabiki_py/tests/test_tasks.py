@@ -67,6 +67,13 @@ def test_moving_hair_is_the_commands(gust, tmp_path, ending):
     assert steps[0] == (0, 13) and steps[-1] == (13, 13) and steps == sorted(steps)
 
 
+def test_chains_of_joints_are_the_commands(gust, tmp_path):
+    chains = ["--export-chains", "12x5", "--export-cards", "0.3", "--export-springs"]
+    command("simulate", GUST, *SMALL, "--strands", 50, *chains, "-o", tmp_path / "wanted.glb")
+    gust.export(tmp_path / "found.glb", strands=50, chains=(12, 5), cards=0.3, springs=True)
+    assert (tmp_path / "found.glb").read_bytes() == (tmp_path / "wanted.glb").read_bytes()
+
+
 def test_the_groom_is_the_commands(gust, tmp_path):
     command("groom", GUST, *SMALL, "--strands", 50, "-o", tmp_path / "wanted.hair")
     points, offsets = gust.groom(strands=50, file=tmp_path / "found.hair", report=print)

@@ -55,11 +55,9 @@ impl ExportOptions {
         }
         let has_chains = self.files.iter().any(|file| moving::is_root_first(file));
         if self.springs && !has_chains {
-            return Err(Error::refused(
-                "--export-springs: springs are for chains of joints: also give --export FILE.glb",
-            ));
+            return Err(Error::refused("springs are for chains of joints: export a .glb with them"));
         }
-        self.chains.check().map_err(|why| Error::refused(format!("--export-chains, --export-cards: {why}")))?;
+        self.chains.check().map_err(|why| Error::refused(format!("chains of joints: {why}")))?;
         self.files.iter().try_for_each(|file| {
             let way_out = match &self.layer {
                 _ if !moving::is_moving(file) => format!("moving hair is written as {}", moving::ENDINGS),
@@ -164,16 +162,14 @@ impl<'a> Exports<'a> {
 /// VRM's spring bones for the hair of a scene.
 fn springs_of(built: &BuiltScene) -> Result<Springs> {
     let Form::Free(free) = &built.dynamics.form else {
-        return Err(Error::refused(
-            "--export-springs: springs are for hair that comes back to rest: set motion.form = \"free\"",
-        ));
+        return Err(Error::refused("springs are for hair that comes back to rest: set motion.form = \"free\""));
     };
     // The unit of the force, in m/s^2.
     let unit = 0.01 * EARTH_CM_PER_S2 / f64::from(earth_gravity(&built.dynamics, built.mean_length()));
     let back = (free.form.hold.mean() + f64::from(free.form.gravity)) * unit;
     let settle = free.form.settle.mean() * f64::from(built.dynamics.motion.slow) / built.scene.frame_rate();
     if settle == 0.0 {
-        let line = "--export-springs: with free.settle = 0 hair swings for ever, and springs cannot: give settle";
+        let line = "with free.settle = 0 hair swings for ever, and springs cannot: give settle";
         return Err(Error::refused(line));
     }
     Ok(Springs::new(back, settle))

@@ -19,6 +19,16 @@ pub enum Info {
     File(Box<nabiki_io::info::Info>),
 }
 
+impl Info {
+    /// Why a scene does not move: a file that is missing, a group that the hair does not have.
+    pub fn problem(&self) -> Option<&str> {
+        match self {
+            Self::Scene(info) => info.problem.as_deref(),
+            Self::File(_) => None,
+        }
+    }
+}
+
 impl fmt::Display for Info {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

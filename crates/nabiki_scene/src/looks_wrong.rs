@@ -180,6 +180,12 @@ fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
                 let far = Short(region.within + region.soft);
                 format!("no root is within {far} cm of it; correct near, or raise within")
             }
+            None if !region.painted.is_empty() && region.has_members() => {
+                "none is painted and also in its groups, attribute and map; leave out one of these".to_owned()
+            }
+            None if !region.painted.is_empty() => {
+                "no root is near a painted point with a weight; paint it anew, or raise within".to_owned()
+            }
             None if region.map.is_some() => "its map is black at all roots; correct it".to_owned(),
             None if region.groups.is_empty() => "its attribute is 0 on all of them; correct it".to_owned(),
             None if region.attribute.is_none() => "none is in its groups; correct these".to_owned(),

@@ -94,22 +94,48 @@ fn another_aim_is_another_motion() {
     assert_eq!(toward("[0, 30, 0]"), identity("[[aim]]\nname = \"up\"\ntoward = [0, 30, 0]\n"));
 }
 
+/// Curves in the scene lead as the same curves in a file do.
+#[test]
+fn curves_may_be_in_the_scene_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let usda = "#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = \"Y\"\n)\ndef BasisCurves \"c\"\n{\n    uniform token type = \
+                \"linear\"\n    int[] curveVertexCounts = [3, 2]\n    point3f[] points = [(8, 6, 0), (12, 6.5, 1), (14, 2, 1), \
+                (-9, 5, 2), (-12, 9, 0)]\n}\n";
+    std::fs::write(folder.path().join("c.usda"), usda).unwrap();
+    let inline = "curves = [[[8, 6, 0], [12, 6.5, 1], [14, 2, 1]], [[-9, 5, 2], [-12, 9, 0]]]";
+    let build = |shape: &str| built(folder.path(), &format!("[[aim]]\n{shape}\nregion = \"front\"\n")).unwrap();
+    let [of_file, of_scene] = [build("file = \"c.usda\""), build(inline)];
+    assert_eq!(aims(&of_file)[0].shape, aims(&of_scene)[0].shape);
+    assert_eq!(of_file.identity().unwrap(), of_scene.identity().unwrap());
+    let posed = build(&format!("{inline}\nframe = 3"));
+    assert!(matches!(&aims(&posed)[0].shape, AimShape::Curves(curves) if curves.frame() == Some(3)));
+}
+
 #[test]
 fn what_no_aim_can_be_is_refused_by_one_line() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("words.usda"), "hello").unwrap();
     for (aim, line) in [
-        ("", "aim[0].file is missing: give file, toward, or groom = true"),
+        ("", "aim[0].file is missing: give file, curves, toward, or groom = true"),
         (
             "groom = true\ntoward = [1, 2, 3]",
-            "aim[0].toward = [1, 2, 3]: an aim has one shape: give only one of file, toward and groom",
+            "aim[0].toward = [1, 2, 3]: an aim has one shape: give only one of file, curves, toward and groom",
         ),
-        ("groom = true\nframe = 3", "aim[0].frame = 3: is for the curves of a file, and this aim has none: remove it"),
+        ("groom = true\nframe = 3", "aim[0].frame = 3: is for curves, and this aim has none: remove it"),
         ("groom = true\nregion = \"frnt\"", "aim[0].region = \"frnt\": there is no such region: give one of \"front\""),
         ("groom = true\nfrom = 9\nthrough = 3", "aim[0].through = 3: must not be before `from`, which is 9"),
         ("file = \"none.usda\"", "aim[0].file = \"none.usda\": there is no "),
         ("file = \"words.usda\"", "words.usda:"),
         ("groom = true\nstrength = -1", "aim[0].strength = -1"),
+        (
+            "file = \"a.usda\"\ncurves = [[[0, 9, 0], [0, 12, 0]]]",
+            "aim[0].curves = 1 curves: an aim has one shape: give only one of file, curves, toward and groom",
+        ),
+        (
+            "curves = [[[0, 9, 0], [0, 12, 0]], [[1, 2, 3]]]",
+            "aim[0].curves[1] = 1 points: a curve has at least two points",
+        ),
+        ("curves = [[[0, 9, 0], [0, 9, 0]]]", "aim[0].curves has a curve without a length, number 0: remove it"),
     ] {
         let said = built(folder.path(), &format!("[[aim]]\n{aim}\n")).map(|_| ()).unwrap_err();
         assert!(said.contains(line) && !said.contains('\n'), "{said}");

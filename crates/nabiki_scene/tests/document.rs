@@ -122,6 +122,22 @@ fn forces_come_and_go_with_their_comments() {
     assert!(old.is_empty(), "{old:?}");
 }
 
+/// What is painted is many numbers, with a line for each point.
+#[test]
+fn painted_points_get_a_line_each() {
+    let text = "[motion]\nform = \"free\"\n[[force]]\nthrough = 9\nvector = [1, 0, 0]\n";
+    let mut scene = Scene::parse(text, Path::new("s.toml"), &[]).unwrap();
+    let painted = (0..6).map(|i| [8.125, 0.3 * i as f32, -4.062, 0.1 * i as f32]).collect();
+    scene.free.regions = vec![nabiki::region::Region { painted, ..Default::default() }];
+    let text = scene.to_toml().unwrap();
+    assert!(text.contains("painted = [\n    [8.125, 0.0, -4.062, 0.0],\n    [8.125, 0.3, -4.062, 0.1],\n"), "{text}");
+    let mut again = Scene::parse(&text, Path::new("s.toml"), &[]).unwrap();
+    assert_eq!(again, reread(&again));
+    again.free.regions[0].painted[1][3] = 0.25;
+    let (old, new) = changed_lines(&text, &again.to_toml().unwrap());
+    assert_eq!((old, new), (lines(&["    [8.125, 0.3, -4.062, 0.1],"]), lines(&["    [8.125, 0.3, -4.062, 0.25],"])));
+}
+
 #[test]
 fn optional_settings_are_set_and_cleared() {
     let (old, new) = change(|scene| scene.picture.camera.distance = None);

@@ -53,6 +53,21 @@ fn regions_are_told_with_their_place_and_factors() {
 }
 
 #[test]
+fn why_a_scene_does_not_move_is_told_beside_all_that_is_known_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let of = |groups: &str| {
+        std::fs::write(&scene, format!("[motion]\nform = \"free\"\n[[free.regions]]\ngroups = [\"{groups}\"]\n"))
+            .unwrap();
+        info(&scene).unwrap()
+    };
+    assert_eq!(of("top").problem(), None);
+    let wrong = of("bangs");
+    assert!(wrong.problem().unwrap().contains("free.regions[0].groups = \"bangs\": no group of the hair"), "{wrong}");
+    assert!(wrong.to_string().contains("free.regions[0]: groups bangs: no change"), "{wrong}");
+}
+
+#[test]
 fn what_moves_the_head_is_told() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/head_turn.toml");
     let said = info(&scene).unwrap();

@@ -104,6 +104,8 @@ fn imported_hair_belongs_to_regions_by_its_prims_and_its_attributes() {
         ("attribute = \"painted\"", [0.25, 1.0, 0.25, 1.0]),
         ("attribute = \"at_points\"", [0.5, 0.0, 0.5, 0.0]),
         ("groups = [\"back\"]\nattribute = \"painted\"", [0.0, 0.0, 0.25, 1.0]),
+        ("painted = [[6, 9, -2, 0.5], [6, 9, 2, 1]]\nwithin = 3", [0.5, 1.0, 0.0, 0.0]),
+        ("painted = [[-6, 9, 2, 0.5]]\nwithin = 1\nsoft = 0\nattribute = \"painted\"", [0.0, 0.0, 0.0, 0.5]),
         ("groups = [\"back\"]\nattribute = \"painted\"\nnear = [-6, 9, 2]\nwithin = 1\nsoft = 0", [0.0, 0.0, 0.0, 1.0]),
     ] {
         for more in ["", "segments = 9"] {
@@ -162,7 +164,11 @@ fn groups_and_attributes_that_are_not_there_are_refused_with_those_that_are() {
             "attribute = \"large\"",
             "free.regions[0].attribute = \"large\": is 1.5 at the root of strand 0 of 4, but must be 0 to 1: correct it in the file",
         ),
-        ("hold = 2", "free.regions[0].near is missing: give near, groups, attribute or map"),
+        (
+            "painted = [[6, 9, -2, 2.0]]",
+            "free.regions[0].painted[0] = [6.0, 9.0, -2.0, 2.0]: the fourth number is a weight, from 0 to 1",
+        ),
+        ("hold = 2", "free.regions[0].near is missing: give near, groups, attribute, map or painted"),
     ] {
         let said = imported(region, "", Shown::All).map(|_| ()).unwrap_err();
         assert!(said.contains(line), "{said}");

@@ -73,6 +73,12 @@ pub enum Action {
     Arrows,
     /// The finished picture when the hand rests.
     FinalPicture,
+    /// The hand that pulls.
+    Pull,
+    /// The brush that paints regions.
+    Paint,
+    /// The comb that makes aims.
+    Comb,
     /// Fewer strands.
     Fewer,
     /// More strands.
@@ -285,8 +291,35 @@ pub const ACTIONS: &[Entry] = &[
     entry(Action::Ghosts, "View", "Tip paths", plain("G"), "Shows where the tips were and will be."),
     entry(Action::Arrows, "View", "Wind arrows", plain("W"), "Shows the wind as arrows where it varies in space."),
     entry(Action::FinalPicture, "View", "Final picture", plain("R"), "Renders all strands when you pause."),
-    entry(Action::Fewer, "View", "Fewer strands", plain("OpenBracket"), "Shows half as many strands."),
-    entry(Action::More, "View", "More strands", plain("CloseBracket"), "Shows twice as many strands."),
+    entry(Action::Pull, "View", "Pull hair", plain("P"), "Takes the hand: dragged hair finds its wind."),
+    entry(
+        Action::Paint,
+        "View",
+        "Paint a region",
+        plain("B"),
+        "Takes the brush, or puts it away: it says which hair belongs to a region.",
+    ),
+    entry(
+        Action::Comb,
+        "View",
+        "Comb hair",
+        plain("H"),
+        "Takes the comb, or puts it away: an aim leads hair to where it is combed.",
+    ),
+    entry(
+        Action::Fewer,
+        "View",
+        "Fewer strands",
+        plain("OpenBracket"),
+        "Shows half as many strands; with brush or comb, makes it smaller.",
+    ),
+    entry(
+        Action::More,
+        "View",
+        "More strands",
+        plain("CloseBracket"),
+        "Shows twice as many strands; with brush or comb, makes it larger.",
+    ),
     entry(Action::ZoomIn, "View", "Larger", command("Equals"), "Makes text and panels 10 % larger."),
     entry(Action::ZoomOut, "View", "Smaller", command("Minus"), "Makes text and panels 10 % smaller."),
     entry(Action::ResetLayout, "View", "Reset panels", None, "Restores the default panel layout."),

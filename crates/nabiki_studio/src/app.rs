@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use eframe::egui::{self, Key, Modifiers, Ui, ViewportCommand};
 use egui_tiles::{SimplificationOptions, TileId, UiResponse};
 use nabiki_render::Picture;
+use nabiki_scene::scene::FormChoice;
 
 use crate::actions::{ACTIONS, Action};
 use crate::command::Command;
@@ -381,6 +382,9 @@ impl Panes<'_> {
             final_picture: preferences.final_picture && self.session.trouble().is_none(),
             strands_in_final: usize::MAX,
             navigation: preferences.navigation,
+            tools: self.session.tools(),
+            regions: &scene.free.regions,
+            is_free: scene.form == FormChoice::Free,
         };
         let rect = ui.available_rect_before_wrap();
         let touches = self.view.ui(ui, &shown);
@@ -396,6 +400,9 @@ impl Panes<'_> {
             self.commands.push(match touch {
                 Touch::SetVector { interval, vector, done } => Command::Vector { interval, vector, phase: phase(done) },
                 Touch::Pulled { name, answer, interval, phase } => Command::Pulled { name, answer, interval, phase },
+                Touch::Use(tools) => Command::Use(tools),
+                Touch::Painted { region, painted } => Command::Painted { region, painted },
+                Touch::Combed { frame, strands } => Command::Combed { frame, strands },
                 Touch::Undone => Command::GiveUpDrag,
                 Touch::CameraMoved => continue,
                 Touch::Refused(why) => Command::Refuse { about: HAND.to_owned(), why },

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use glam::Vec3;
+use nabiki::region::Region;
 use nabiki::solve::Answer;
 use nabiki_scene::Scene;
 use nabiki_scene::scene::ForceSettings;
@@ -14,6 +15,7 @@ use crate::document::Phase;
 use crate::play::Ending;
 use crate::preferences::Preferences;
 use crate::tasks::Order;
+use crate::tools::Tools;
 
 /// Something asked for.
 #[derive(Clone, Debug)]
@@ -59,6 +61,22 @@ pub enum Command {
         interval: usize,
         /// How the change goes on.
         phase: Phase,
+    },
+    /// Another tool, or the same set otherwise.
+    Use(Box<Tools>),
+    /// A region as the brush has left it.
+    Painted {
+        /// Which; a new one if it is left out.
+        region: Option<usize>,
+        /// The region.
+        painted: Box<Region>,
+    },
+    /// Hair is combed in a frame.
+    Combed {
+        /// The frame.
+        frame: u32,
+        /// Strands of the take by their numbers, as they should lie (head space, cm).
+        strands: Vec<(usize, Vec<Vec3>)>,
     },
     /// Another scene altogether, as a tool that solves for a wind gives one.
     Scene {

@@ -21,6 +21,8 @@ pub const PLACES: [&str; 3] = ["View", "Timeline", "Numbers"];
 /// All that a hand does but for moving the camera, which is as the preferences say.
 pub const GESTURES: &[Gesture] = &[
     gesture("View", "Drag hair", "Pulls a lock. The wind changes to bring it there."),
+    gesture("View", "B, drag over hair", "Paints which hair belongs to a region. Ctrl erases, Shift smooths."),
+    gesture("View", "H, drag hair", "Combs it in this frame. An aim leads it there."),
     gesture("View", "N+click hair", "Nails a lock in its frame, or removes the nail."),
     gesture("View", "Drag the arrow's tip", "Changes the vector of the selected interval."),
     gesture("View", "Drag next to the hair", "Turns the view."),

@@ -22,4 +22,5 @@ pub mod settings;
 pub mod take;
 pub mod tasks;
 pub mod timeline;
+pub mod tools;
 pub mod view;

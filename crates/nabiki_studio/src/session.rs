@@ -7,6 +7,7 @@ mod files;
 mod followed;
 mod kept;
 mod lost;
+mod regions;
 mod revealed;
 mod taken;
 mod watch;
@@ -33,6 +34,7 @@ use crate::settings::Page;
 use crate::take::{TOUCHED, Take};
 use crate::tasks::Task;
 use crate::timeline::Clip;
+use crate::tools::{Tool, Tools};
 use deep::Deep;
 pub use kept::Difference;
 use kept::KeptTake;
@@ -96,6 +98,7 @@ pub struct Session {
     /// The same before a pull that goes on, which has its own interval chosen.
     chosen_before: Option<Vec<usize>>,
     clip: Clip,
+    tools: Tools,
     /// The setting that is pointed out.
     revealed: Option<Revealed>,
     dialog: Option<Dialog>,
@@ -163,6 +166,7 @@ impl Session {
             chosen: Vec::new(),
             chosen_before: None,
             clip: Clip::default(),
+            tools: Tools::default(),
             revealed: None,
             dialog: None,
             asked_at: None,
@@ -286,6 +290,11 @@ impl Session {
     /// The intervals chosen, in ascending order.
     pub fn chosen(&self) -> &[usize] {
         &self.chosen
+    }
+
+    /// The tool at hand.
+    pub fn tools(&self) -> &Tools {
+        &self.tools
     }
 
     /// Whether something was copied.
@@ -416,6 +425,7 @@ impl Session {
             Command::End(ending) => self.set_ending(ending),
             Command::Strands(strands) => self.show_strands(strands),
             Command::Choose(chosen) => self.chosen = chosen,
+            Command::Use(tools) => self.tools = *tools,
             Command::Show(dialog) => self.dialog = Some(*dialog),
             Command::CloseDialog => self.close_dialog(),
             Command::AskDesktop => self.ask_desktop(),
@@ -450,6 +460,8 @@ impl Session {
     fn choose_what_is_there(&mut self) {
         let intervals = self.document.as_ref().map_or(0, |document| document.scene().field.force.len());
         self.chosen.retain(|&j| j < intervals);
+        let regions = self.document.as_ref().map_or(0, |document| document.scene().free.regions.len());
+        self.tools.region = self.tools.region.filter(|&i| i < regions);
     }
 
     fn move_if_changed(&mut self) {
@@ -518,6 +530,10 @@ impl Session {
             Action::Ghosts => self.preferences.ghosts = !self.preferences.ghosts,
             Action::Arrows => self.preferences.arrows = !self.preferences.arrows,
             Action::FinalPicture => self.preferences.final_picture = !self.preferences.final_picture,
+            Action::Pull => self.tools.tool = Tool::Pull,
+            Action::Paint => self.tools.toggle(Tool::Paint),
+            Action::Comb => self.tools.toggle(Tool::Comb),
+            Action::Fewer | Action::More if self.tools.tool != Tool::Pull => self.tools.resize(action == Action::More),
             Action::Fewer => self.step_strands(false),
             Action::More => self.step_strands(true),
             Action::ZoomIn => self.preferences.zoom = (self.preferences.zoom * 1.1).min(4.0),

@@ -211,6 +211,8 @@ pub enum Kind {
     Unit,
     /// Frames and parts of a strength.
     Envelope,
+    /// What a tool of the view draws, so many of these: it is counted, and can be removed.
+    Drawn(&'static str),
 }
 
 /// Files of hair.

@@ -1,7 +1,9 @@
 //! The view: head and hair from any side, and what is taken hold of in space.
 
 mod arrows;
+pub mod brush;
 pub mod camera;
+mod comb;
 pub mod final_picture;
 mod hand;
 pub mod handle;
@@ -13,6 +15,8 @@ pub mod pick;
 mod screen;
 mod shown;
 mod sources;
+mod toolbar;
+mod tooling;
 
 use eframe::egui;
 use eframe::egui_wgpu::RenderState;
@@ -21,6 +25,7 @@ use nabiki_render::{Bounds, View as Seen};
 use nabiki_scene::pull::Lock;
 
 use crate::take::Take;
+use crate::tools::Tool;
 
 use camera::{Held as Buttons, Orbit};
 use final_picture::{FinalPicture, Rest, Wanted};
@@ -60,6 +65,8 @@ pub struct View {
     left_tip: Option<hand::LeftTip>,
     /// The scene that is shown, by its number.
     scene: u64,
+    /// What brush and comb have marked.
+    marked: tooling::Marked,
     /// Where buttons lie over the picture.
     buttons: Vec<egui::Rect>,
     rest: Rest,
@@ -89,6 +96,7 @@ impl View {
             felt: None,
             left_tip: None,
             scene: 0,
+            marked: tooling::Marked::default(),
             buttons: Vec::new(),
             rest: Rest::default(),
             final_picture: None,
@@ -176,7 +184,12 @@ impl View {
             self.nails.retain(|nail| nail.fits(shown.take.strands()) && nail.frame <= shown.take.frames());
         }
         let before = touches.len();
-        self.use_hand(ui, &response, shown, &view, rect, &mut touches);
+        if shown.tools.tool == Tool::Pull || shown.hands_off {
+            self.use_hand(ui, &response, shown, &view, rect, &mut touches);
+        } else {
+            touches.extend(self.use_tool(ui, response.contains_pointer(), shown, &view, rect));
+        }
+        self.mark(shown);
         if let Some(let_go) = &mut self.let_go {
             touches.extend(let_go.settle(shown, now));
             if let_go.is_looking() {
@@ -198,7 +211,7 @@ impl View {
         match &mut self.screen {
             Err(words) => overlay.instead(words),
             Ok(screen) => {
-                if screen.show(&painter, rect, shown, &view, now) {
+                if screen.show(&painter, rect, shown, &view, &self.marked, now) {
                     self.rest.touch(now);
                 }
                 if let Some(words) = screen.failure() {
@@ -210,6 +223,11 @@ impl View {
         }
         let words = self.draw_over(&overlay, &response, shown, &view);
         self.offer(ui, rect, shown, words, now);
+        if !shown.hands_off {
+            let (place, tools) = toolbar::ui(ui, rect, shown);
+            self.buttons.push(place);
+            touches.extend(tools.map(|tools| Touch::Use(Box::new(tools))));
+        }
         self.refused |= touches.iter().any(|touch| matches!(touch, Touch::Refused(_)));
         touches
     }
@@ -300,7 +318,8 @@ impl View {
         now: f64,
     ) {
         let Ok(screen) = &mut self.screen else { return };
-        if !shown.final_picture || shown.playing || self.hand.is_busy() || shown.ghosts {
+        let tool = shown.tools.tool != Tool::Pull && !shown.hands_off;
+        if !shown.final_picture || shown.playing || self.hand.is_busy() || shown.ghosts || tool {
             self.rest.touch(now);
             if let Some(thread) = &self.final_picture {
                 thread.cancel();
@@ -424,6 +443,9 @@ impl View {
             {
                 let hair = let_go.lock.middle(points, strands);
                 return overlay.thread(&in_head, let_go.goal, hair, Some(&words));
+            }
+            Hand::Idle | Hand::Paint(_) | Hand::Comb(_) if shown.tools.tool != Tool::Pull && !shown.hands_off => {
+                self.draw_tool(overlay, response.hover_pos(), shown);
             }
             Hand::Idle if !shown.playing && shown.frame > 0 && !shown.hands_off => {
                 let pixel = response.hover_pos().map(|at| (at - overlay.rect.min) * overlay.scale);

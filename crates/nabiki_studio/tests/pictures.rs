@@ -9,7 +9,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Key, Modifiers, Rect, Vec2, vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Rect, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::WgpuTestRenderer;
@@ -62,7 +62,7 @@ struct Case {
     act: fn(&mut Window),
 }
 
-const CASES: [Case; 8] = [
+const CASES: [Case; 10] = [
     Case {
         name: "gust",
         scene: "gust.toml",
@@ -90,6 +90,33 @@ const CASES: [Case; 8] = [
             settle(window);
             window.key_press(Key::X);
             window.step();
+            settle(window);
+        },
+    },
+    Case {
+        name: "painted",
+        scene: "gust.toml",
+        size: [1280.0, 720.0],
+        points_to_pixels: 1.0,
+        act: |window| {
+            window.key_press(Key::B);
+            window.step();
+            stroke(window, &[vec2(0.46, 0.2), vec2(0.52, 0.24), vec2(0.56, 0.32)]);
+            let at = window.get_by_label("View of the hair").rect();
+            window.hover_at(at.min + at.size() * vec2(0.6, 0.36));
+            settle(window);
+        },
+    },
+    Case {
+        name: "combed",
+        scene: "gust.toml",
+        size: [1280.0, 720.0],
+        points_to_pixels: 1.0,
+        act: |window| {
+            go(window, 45);
+            window.key_press(Key::H);
+            window.step();
+            stroke(window, &[vec2(0.33, 0.4), vec2(0.33, 0.6), vec2(0.4, 0.8)]);
             settle(window);
         },
     },
@@ -234,6 +261,30 @@ fn click(window: &mut Window, label: &str) {
     if let Some(found) = window.query_all_by_label(label).last() {
         found.click();
     }
+    window.step();
+    settle(window);
+}
+
+/// Drags over the view: places as parts of its size.
+fn stroke(window: &mut Window, way: &[Vec2]) {
+    let view = window.get_by_label("View of the hair").rect();
+    let at = |part: &Vec2| view.min + view.size() * *part;
+    let (Some(first), Some(last)) = (way.first(), way.last()) else { return };
+    let button = |pos, pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    window.hover_at(at(first));
+    window.step();
+    window.event(button(at(first), true));
+    window.step();
+    for part in way {
+        window.hover_at(at(part));
+        window.step();
+    }
+    window.event(button(at(last), false));
     window.step();
     settle(window);
 }

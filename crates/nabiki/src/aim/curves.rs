@@ -3,12 +3,8 @@
 use glam::{DVec3, Vec3};
 
 use crate::error::SettingError;
+use crate::nearest::Nearest;
 use crate::strands::{Strands, not_finite};
-
-/// How many curves a strand mixes.
-const MIXED: usize = 3;
-/// A curve that begins as near as this to the root is followed alone (cm).
-const SAME_ROOT_CM: f64 = 1e-3;
 
 /// Curves that lead hair.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,10 +69,9 @@ impl AimCurves {
         (0..strand.len() - 1).map(mix).collect()
     }
 
-    /// The curves that a strand with this root mixes, nearest first, with their weights: ((R - r) / (R r))^2 for a curve
-    /// at the distance r, where R is that of the nearest curve that does not count. So weights change smoothly.
+    /// The curves that a strand with this root mixes, nearest first, with their weights.
     fn near(&self, root: DVec3) -> Vec<(u32, f64)> {
-        let mut nearest = [(f64::INFINITY, u32::MAX); MIXED + 1];
+        let mut nearest = Nearest::default();
         let place = self.order.partition_point(|&curve| self.root(curve).x < root.x);
         let (mut left, mut right) = (place, place);
         loop {
@@ -84,25 +79,14 @@ impl AimCurves {
             let before = left.checked_sub(1).and_then(|at| self.order.get(at));
             let (to_left, to_right) = (aside(before), aside(self.order.get(right)));
             // Also the end: both are infinite.
-            if to_left.min(to_right) >= nearest[MIXED].0 {
+            if to_left.min(to_right) >= nearest.reach() {
                 break;
             }
             let at = if to_left < to_right { left - 1 } else { right };
             (left, right) = if to_left < to_right { (left - 1, right) } else { (left, right + 1) };
-            let found = (self.root(self.order[at]).distance(root), self.order[at]);
-            // Of curves at the same distance, the lower number.
-            let place = nearest.partition_point(|of| of.0 < found.0 || of.0 == found.0 && of.1 < found.1);
-            if place <= MIXED {
-                nearest[place..].rotate_right(1);
-                nearest[place] = found;
-            }
+            nearest.offer(self.root(self.order[at]).distance(root), self.order[at]);
         }
-        let beyond = nearest[MIXED].0;
-        let weight = |r: f64| if beyond.is_finite() { ((beyond - r) / (beyond * r)).powi(2) } else { r.powi(-2) };
-        if nearest[0].0 <= SAME_ROOT_CM || beyond <= nearest[0].0 {
-            return vec![(nearest[0].1, 1.0)];
-        }
-        nearest[..MIXED].iter().filter(|of| of.0.is_finite()).map(|&(r, curve)| (curve, weight(r))).collect()
+        nearest.weights()
     }
 
     /// The direction of a curve along each segment of a strand, from the same lengths of hair: that of its end for a

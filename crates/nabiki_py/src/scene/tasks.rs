@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use nabiki_io::moving::ChainOptions;
 use nabiki_render::output::{self, exr, png};
 use nabiki_render::{RenderError, ToneMapping};
 use nabiki_scene::Shown;
@@ -213,11 +214,14 @@ impl Scene {
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::preview(scene, shown, &folder, None, watch))
     }
 
-    /// Writes the moving hair: .usdc, .usda or .abc for other programs, or a motion cache, .nabiki.
+    /// Writes the moving hair: .usdc, .usda or .abc for other programs, .glb for engines, .pc2 or .mdd point caches, or a
+    /// motion cache, .nabiki.
     ///
     /// `strands`: use only this many. `layer`: the prim path of the groom that a layer of samples covers. `head`:
-    /// whether to add the head if it would be omitted: the built-in one, and any head in an .abc file.
-    #[pyo3(signature = (file, *, strands=None, layer=None, head=false, progress=None,
+    /// whether to add the head if it would be omitted: the built-in one, and any head in an .abc file. In a .glb:
+    /// `chains`, the number of chains of joints and of joints in each; `cards`, the width of the ribbons in cm, 0 for
+    /// lines; `springs`, whether to add VRM's spring bones.
+    #[pyo3(signature = (file, *, strands=None, layer=None, head=false, chains=(64, 8), cards=0.4, springs=false, progress=None,
         report=None))]
     #[expect(clippy::too_many_arguments, reason = "named in Python")]
     fn export(
@@ -227,10 +231,15 @@ impl Scene {
         strands: Option<Strands>,
         layer: Option<String>,
         head: bool,
+        chains: (u32, u32),
+        cards: f32,
+        springs: bool,
         progress: Option<Given<'_, Progress>>,
         report: Option<Given<'_, Report>>,
     ) -> PyResult<()> {
-        let exports = ExportOptions { layer, head, ..ExportOptions::default() };
+        let (chains, joints) = chains;
+        let chains = ChainOptions { chains, joints, cards, springs: None };
+        let exports = ExportOptions { layer, head, chains, springs, ..ExportOptions::default() };
         let options = SimulateOptions { output: file, exports, twin: Twin::Fast, shard: None };
         let State { scene, fields, made: _held, .. } = self.checked(py)?;
         let shown = shown(strands);

@@ -111,6 +111,12 @@ pub(super) fn aims<'a>(
         let shape = match settings {
             AimSettings { toward: Some(point), .. } => AimShape::Toward(*point),
             AimSettings { groom: true, .. } => AimShape::Groom,
+            AimSettings { curves, frame, .. } if !curves.is_empty() => {
+                let mut strands = Strands::default();
+                curves.iter().for_each(|curve| strands.push(curve.iter().copied()));
+                let curves = AimCurves::new(strands, *frame, &format!("{name}.curves"));
+                AimShape::Curves(Arc::new(curves.map_err(|refused| at.refusal(refused))?))
+            }
             AimSettings { file, frame, .. } => {
                 let poses = &way.poses;
                 let pose = frame.and_then(|n| poses.get(n as usize).or(poses.last())).copied().unwrap_or_default();

@@ -76,6 +76,8 @@ pub struct SceneInfo {
     pub picture: [u32; 2],
     /// Settings without effect, a line each.
     pub unused: Vec<String>,
+    /// Why the scene does not move, if it is in the free form.
+    pub problem: Option<String>,
 }
 
 /// `[free]`, `[contact]` and `[neighbours]` of a scene.
@@ -126,7 +128,11 @@ impl SceneInfo {
         let by_speed = scene.field.force.iter().any(|force| force.speed.is_some());
         let bounds = if scene.field.is_the_papers() { Ok(Vec::new()) } else { scene.field_bounds() };
         // Converting physical units, and the steps per frame, needs the length of the hair.
-        let built = (scene.form == FormChoice::Free).then(|| scene.clone().build(Shown::AtMost(1)).ok()).flatten();
+        let built = (scene.form == FormChoice::Free).then(|| scene.clone().build(Shown::AtMost(1)));
+        let (built, problem) = match built.transpose() {
+            Ok(built) => (built, None),
+            Err(problem) => (None, Some(problem.to_string())),
+        };
         let free = FreeInfo::of(scene, built.as_ref());
         Self {
             head: scene.head.mesh(),
@@ -156,6 +162,7 @@ impl SceneInfo {
             disturbed_every: scene.disturbance.as_ref().map(|d| d.every),
             picture: scene.picture.size,
             unused: unused(scene).iter().map(Advice::to_string).collect(),
+            problem,
         }
     }
 }
@@ -273,6 +280,11 @@ fn region_in_words(region: &Region) -> String {
     }
     strands.extend(region.attribute.as_ref().map(|attribute| format!("attribute {attribute}")));
     strands.extend(region.map.as_ref().map(|map| format!("map {}", map.display())));
+    match region.painted.len() {
+        0 => {}
+        1 => strands.push("1 painted point".to_owned()),
+        count => strands.push(format!("{count} painted points")),
+    }
     if let Some(near) = region.near {
         let [inner, outer] = [region.within, region.within + region.soft].map(Short);
         let place = match region.to {
@@ -304,11 +316,16 @@ fn region_in_words(region: &Region) -> String {
 fn aim_in_words(aim: &AimSettings) -> String {
     let name = if aim.name.is_empty() { String::new() } else { format!("{}, ", aim.name) };
     let hair = aim.region.as_ref().map_or_else(|| "all hair".to_owned(), |region| format!("region {region}"));
+    let curves = match aim.curves.len() {
+        0 => aim.file.display().to_string(),
+        1 => "1 curve".to_owned(),
+        count => format!("{count} curves"),
+    };
     let shape = match (aim.toward, aim.frame) {
         (Some(p), _) => format!("toward {}", point(p)),
         _ if aim.groom => "to the groom".to_owned(),
-        (None, Some(frame)) => format!("{} in frame {frame}", aim.file.display()),
-        (None, None) => format!("{} on the head at rest", aim.file.display()),
+        (None, Some(frame)) => format!("{curves} in frame {frame}"),
+        (None, None) => format!("{curves} on the head at rest"),
     };
     let strength = match aim.strength {
         Amount::Number(number) => format!("strength {}", Short(number)),

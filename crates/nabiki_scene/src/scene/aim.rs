@@ -13,8 +13,7 @@ use super::quantity::{Amount, Quantity, Strength};
 const FARTHEST: f64 = 100_000.0;
 
 settings! {
-    /// A shape that hair is led to in some frames, whatever the wind does: a pose of curves from a file, a point, or the
-    /// groom. Free form only.
+    /// A shape that hair is led to in some frames, whatever the wind does: a pose of curves, a point, or the groom. Free form only.
     pub struct AimSettings where leads_somewhere {
         /// Name of the aim, for `info`.
         pub name: String = String::new() => "Name";
@@ -24,6 +23,10 @@ settings! {
         /// A file with curves of the shape: .usd, .usda, .usdc, .abc, .nabiki, .hair, .tfx or .obj. A strand follows
         /// the directions of the curves that begin nearest to its root.
         pub file: PathBuf = PathBuf::new() => "Shape";
+        /// Curves of the shape instead of a file, as the studio's comb leaves them: lists of points from root to tip, in
+        /// head space (cm).
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub curves: Vec<Vec<Vec3>> = Vec::new() => "Curves", least -FARTHEST, most FARTHEST;
         /// The frame of the scene in which the curves are posed, on the head as it is there. From a file that moves,
         /// this frame is used, counted from the file's first. Without it, the curves are posed on the head at rest.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,19 +60,33 @@ impl AimSettings {
 
     /// Refuses an aim with no shape, or with several, and one that ends before it begins.
     fn leads_somewhere(&self, at: &Place) -> Result<(), SettingError> {
-        let given = [!self.file.as_os_str().is_empty(), self.toward.is_some(), self.groom];
+        let given = [!self.file.as_os_str().is_empty(), !self.curves.is_empty(), self.toward.is_some(), self.groom];
         match given.into_iter().filter(|&given| given).count() {
             1 => {}
-            0 => return refused(&at.key("file"), "", "is missing: give file, toward, or groom = true"),
+            0 => return refused(&at.key("file"), "", "is missing: give file, curves, toward, or groom = true"),
             _ => {
-                let key = if given[1] { "toward" } else { "groom" };
-                let remedy = "an aim has one shape: give only one of file, toward and groom";
-                let value = self.toward.map_or_else(|| "true".to_owned(), |point| format!("{point}"));
-                return refused(&at.key(key), value, remedy);
+                let (key, value) = match self.toward {
+                    Some(point) => ("toward", format!("{point}")),
+                    None if self.groom => ("groom", "true".to_owned()),
+                    None => ("curves", format!("{} curves", self.curves.len())),
+                };
+                return refused(
+                    &at.key(key),
+                    value,
+                    "an aim has one shape: give only one of file, curves, toward and groom",
+                );
             }
         }
-        if let Some(frame) = self.frame.filter(|_| !given[0]) {
-            return refused(&at.key("frame"), frame, "is for the curves of a file, and this aim has none: remove it");
+        if let Some(frame) = self.frame.filter(|_| !given[0] && !given[1]) {
+            return refused(&at.key("frame"), frame, "is for curves, and this aim has none: remove it");
+        }
+        if let Some(i) = self.curves.iter().position(|curve| curve.len() < 2) {
+            let points = format!("{} points", self.curves[i].len());
+            return refused(
+                &at.key("curves").entry(i),
+                points,
+                "a curve has at least two points: remove it, or add points",
+            );
         }
         self.lead(1.0).check_at(&Key::from(at).to_string())
     }

@@ -167,11 +167,21 @@ fn fresh(value: &Value) -> toml_edit::Value {
         Value::Boolean(flag) => (*flag).into(),
         // No setting is a date.
         Value::Datetime(date) => date.to_string().into(),
-        Value::Array(values) => toml_edit::Value::Array(values.iter().map(fresh).collect()),
+        Value::Array(values) => toml_edit::Value::Array(in_lines(values.iter().map(fresh).collect())),
         Value::Table(table) => {
             table.iter().map(|(key, value)| (key.as_str(), fresh(value))).collect::<InlineTable>().into()
         }
     }
+}
+
+/// A list of lists that is too long for a line, with a line for each entry.
+fn in_lines(mut list: Array) -> Array {
+    if list.iter().all(toml_edit::Value::is_array) && list.to_string().len() > INLINE {
+        list.iter_mut().for_each(|entry| entry.decor_mut().set_prefix("\n    "));
+        list.set_trailing("\n");
+        list.set_trailing_comma(true);
+    }
+    list
 }
 
 /// The entries of a list of tables; none for other lists, or a missing one.

@@ -234,6 +234,18 @@ impl Field<'_> {
                 });
             }
             Kind::Envelope => self.envelope(ui, value, commands),
+            Kind::Drawn(one) => {
+                let count = value.and_then(Value::as_array).map_or(0, Vec::len);
+                let words = match count {
+                    0 => "none".to_owned(),
+                    1 => format!("1 {one}"),
+                    _ => format!("{count} {one}s"),
+                };
+                ui.label(theme::faint(words));
+                if count > 0 && ui.small_button("x").hint("Removes them.").clicked() {
+                    self.set(commands, None, Phase::Done);
+                }
+            }
         }
     }
 

@@ -9,6 +9,7 @@ use crate::actions::Action;
 use crate::command::Command;
 use crate::document::Phase;
 use crate::timeline;
+use crate::tools::Tool;
 
 /// What changes the scene.
 pub(super) const CHANGES: [Action; 11] = [
@@ -48,6 +49,8 @@ impl Session {
             | Command::Vector { .. }
             | Command::Pulled { .. }
             | Command::Scene { .. }
+            | Command::Painted { .. }
+            | Command::Combed { .. }
                 if self.is_behind_text() => {}
             Command::Set { key, value, phase } => self.set(&key, value, phase),
             Command::SetAll { name, settings } => self.set_all(&name, &settings),
@@ -73,7 +76,9 @@ impl Session {
                     _ => None,
                 };
             }
-            Command::Scene { name, scene, phase } => self.change(&name, phase, |now| *now = *scene),
+            Command::Painted { region, painted } => self.painted(region, *painted),
+            Command::Combed { frame, strands } => self.combed(frame, &strands),
+            Command::Scene { name, scene, phase } => drop(self.change(&name, phase, |now| *now = *scene)),
             Command::EndDrag => self.document.iter_mut().for_each(|document| document.end_drag()),
             Command::GiveUpDrag => {
                 self.document.iter_mut().for_each(|document| document.give_up_drag());
@@ -89,11 +94,13 @@ impl Session {
         last.and_then(|document| document.undo_name()) == Some(name)
     }
 
-    fn change(&mut self, name: &str, phase: Phase, change: impl FnOnce(&mut Scene)) {
-        let Some(document) = &mut self.document else { return };
+    /// Changes the scene, as a step of this name. Returns what the change does, if a scene is open.
+    pub(super) fn change<T>(&mut self, name: &str, phase: Phase, change: impl FnOnce(&mut Scene) -> T) -> Option<T> {
+        let document = self.document.as_mut()?;
         let mut scene = document.scene().clone();
-        change(&mut scene);
+        let done = change(&mut scene);
         document.edit(name, scene, phase);
+        Some(done)
     }
 
     fn set(&mut self, key: &str, value: Option<toml::Value>, phase: Phase) {
@@ -170,6 +177,7 @@ impl Session {
                 self.edit_intervals("Remove intervals", timeline::remove(&keys, &chosen), Vec::new());
             }
             Action::SelectAll => self.chosen = (0..keys.len()).collect(),
+            Action::SelectNone if self.tools.tool != Tool::Pull => self.tools.tool = Tool::Pull,
             Action::SelectNone => self.chosen.clear(),
             Action::Add => {
                 let (keys, j) = timeline::add(&keys, frame, last);

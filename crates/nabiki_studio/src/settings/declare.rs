@@ -33,6 +33,8 @@ fn kind(table: &str, key: &str, found: &declared::Setting) -> Kind {
         declared::Kind::Wholes(_) => Kind::Wholes { names: &["w", "h"], least: least as i64, most: most as i64 },
         declared::Kind::List(declared::Kind::Text) => Kind::Texts,
         declared::Kind::List(declared::Kind::Table(_)) => Kind::Envelope,
+        declared::Kind::List(declared::Kind::Numbers(_)) => Kind::Drawn("point"),
+        declared::Kind::List(declared::Kind::List(_)) => Kind::Drawn("curve"),
         declared::Kind::List(of) => Kind::List { whole: matches!(of, declared::Kind::Whole { .. }) },
         declared::Kind::Path => Kind::File(endings(table, key)),
         declared::Kind::OneOf([number, declared::Kind::List(_)]) => {

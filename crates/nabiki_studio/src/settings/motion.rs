@@ -50,6 +50,7 @@ pub(super) const GROUPS: &[Group] = &[
             "groups",
             "attribute",
             "map",
+            "painted",
             "near",
             "to",
             "within",
@@ -69,7 +70,10 @@ pub(super) const GROUPS: &[Group] = &[
         "Aims",
         "aim",
         "Shapes that hair is led to in some frames.",
-        &["name", "region", "file", "frame", "toward", "groom", "strength", "from", "through", "ease_in", "ease_out"],
+        &[
+            "name", "region", "file", "curves", "frame", "toward", "groom", "strength", "from", "through", "ease_in",
+            "ease_out",
+        ],
     )
     .shaped(Shape::List("groom = true"))
     .when(When::Free),

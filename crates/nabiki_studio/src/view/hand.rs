@@ -10,6 +10,7 @@ use super::camera::{Gesture, place_in_plane};
 use super::handle::{self, Arrow};
 use super::let_go::{LetGo, PULL, short};
 use super::pick::Picked;
+use super::tooling::{Combing, Painting};
 use super::{Shown, Touch};
 use crate::document::Phase;
 use crate::take::Take;
@@ -39,6 +40,10 @@ pub enum Hand {
     },
     /// It holds a lock.
     Hair(Box<Held>),
+    /// It paints.
+    Paint(Box<Painting>),
+    /// It combs.
+    Comb(Box<Combing>),
 }
 
 /// A lock in the hand.
@@ -167,7 +172,7 @@ impl LeftTip {
 impl Hand {
     /// Whether it holds something that changes the scene.
     pub fn is_busy(&self) -> bool {
-        matches!(self, Self::Tip { .. } | Self::Hair(_))
+        matches!(self, Self::Tip { .. } | Self::Hair(_) | Self::Paint(_) | Self::Comb(_))
     }
 
     /// It lets go, and what it did is accepted.

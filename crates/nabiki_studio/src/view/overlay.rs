@@ -91,6 +91,19 @@ impl Overlay<'_> {
         }
     }
 
+    /// The edge of a brush of this radius (points).
+    pub fn brush(&self, at: Pos2, radius: f32) {
+        self.painter.circle_stroke(at, radius, Stroke::new(3.0, OUTLINE));
+        self.painter.circle_stroke(at, radius, Stroke::new(1.5, HELD));
+    }
+
+    /// The line of a lasso, which closes by itself.
+    pub fn lasso(&self, line: &[Pos2]) {
+        for (width, colour) in [(3.5, OUTLINE), (1.5, HELD)] {
+            self.painter.add(Shape::closed_line(line.to_vec(), Stroke::new(width, colour)));
+        }
+    }
+
     /// Small words with a dark ground, at the second end of a line.
     fn words(&self, line: [Pos2; 2], words: &str, colour: Color32) -> Rect {
         let galley = self.painter.layout_no_wrap(words.to_owned(), FontId::proportional(13.0), colour);

@@ -10,7 +10,7 @@ use nabiki_render::View;
 use nabiki_render::camera::NEAR;
 
 use crate::take::Take;
-use surfaces::Triangles;
+pub(super) use surfaces::Triangles;
 
 /// How much farther a strand may be for each pixel that it is nearer to the pointer, in pixels of depth.
 const DEPTH_PER_PIXEL: f32 = 6.0;
@@ -64,8 +64,27 @@ impl<'a> Skins<'a> {
         Self { middle: built.model.head.ellipsoid.center, frame, each, entered }
     }
 
+    /// How far a place (head space, cm) is out of the nearest skin that has a distance (cm), negative inside.
+    pub fn clearance(&self, place: Vec3) -> f32 {
+        let read = |(skin, from_head): &(&dyn Obstacle, Affine3A)| {
+            skin.read(from_head.transform_point3(place), self.frame).map_or(f32::INFINITY, |reading| reading.distance)
+        };
+        self.each.iter().map(read).fold(f32::INFINITY, f32::min)
+    }
+
+    /// The way from a place to so far out of every skin that has a distance (head space, cm).
+    pub fn way_out(&self, place: Vec3, clearance: f32) -> Vec3 {
+        let mut way = Vec3::ZERO;
+        for (skin, from_head) in &self.each {
+            let Some(reading) = skin.read(from_head.transform_point3(place + way), self.frame) else { continue };
+            let out = from_head.inverse().transform_vector3(reading.gradient).normalize_or_zero();
+            way += out * (clearance - reading.distance).max(0.0);
+        }
+        way
+    }
+
     /// The triangles without a distance that may hide what is seen within so many pixels of one.
-    fn before(&self, view: &View, pixel: Vec2, within: f32) -> Triangles {
+    pub(super) fn before(&self, view: &View, pixel: Vec2, within: f32) -> Triangles {
         let mut found = Triangles::default();
         for (mesh, head_from_body) in &self.entered {
             found.add(mesh, *head_from_body, view, pixel, within);
@@ -74,7 +93,7 @@ impl<'a> Skins<'a> {
     }
 
     /// Whether one of them, or of the triangles `before` it, lies between a place (head space, cm) and the eye.
-    fn hide(&self, view: &View, before: &Triangles, place: Vec3) -> bool {
+    pub(super) fn hide(&self, view: &View, before: &Triangles, place: Vec3) -> bool {
         let toward = view.toward_eye(place);
         let to_eye = view.project(place).z / -toward.dot(view.forward);
         self.each.iter().any(|(skin, from_head)| {
@@ -152,7 +171,7 @@ pub fn nearest(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::sync::LazyLock;
 
     use nabiki::Head;
@@ -165,7 +184,7 @@ mod tests {
 
     static BUST: LazyLock<Head> = LazyLock::new(bust);
 
-    fn skins() -> Skins<'static> {
+    pub fn skins() -> Skins<'static> {
         Skins {
             middle: BUST.ellipsoid.center,
             frame: 0,
@@ -175,7 +194,7 @@ mod tests {
     }
 
     /// Strands that hang straight down at these places of the horizontal plane.
-    fn hanging(at: &[[f32; 2]]) -> Strands {
+    pub fn hanging(at: &[[f32; 2]]) -> Strands {
         let mut strands = Strands::default();
         for [x, z] in at {
             strands.push((0..10).map(|k| Vec3::new(*x, 5.0 - k as f32, *z)));
@@ -184,7 +203,7 @@ mod tests {
     }
 
     /// From before the face.
-    fn view() -> View {
+    pub fn view() -> View {
         let camera = Camera {
             azimuth: 0.0,
             elevation: 0.0,
@@ -193,6 +212,18 @@ mod tests {
             ..Camera::default()
         };
         Orbit::new(&camera, [800, 600], &Bounds::default()).view([800, 600], Vec3::ZERO)
+    }
+
+    #[test]
+    fn the_way_out_leads_out_of_the_skin() {
+        for (place, clearance) in [(Vec3::new(8.0, 5.0, 1.0), 0.05), (Vec3::new(-9.0, 0.0, 3.0), 0.5)] {
+            let out = place + skins().way_out(place, clearance);
+            // The distance is read from samples, whose gradient is about of unit length.
+            let found = skins().clearance(out);
+            assert!((found - clearance).abs() < 0.1 * (out - place).length() + 1e-3, "{place}: {found}");
+        }
+        let outside = Vec3::new(15.0, 5.0, 0.0);
+        assert_eq!(skins().way_out(outside, 0.05), Vec3::ZERO);
     }
 
     #[test]

@@ -12,6 +12,7 @@ use nabiki_scene::BuiltScene;
 use nabiki_view::{Drawing, Gpu, Line, MOST_HAIRS};
 
 use super::final_picture::Done;
+use super::tooling::Marked;
 use super::{Shown, arrows, onion};
 
 /// The card, and what it has drawn.
@@ -41,6 +42,8 @@ struct Drawn {
     view: Seen,
     ghosts: bool,
     wind: bool,
+    /// The number of what brush and comb have marked.
+    marked: u64,
 }
 
 impl PartialEq for Drawn {
@@ -49,7 +52,7 @@ impl PartialEq for Drawn {
             && Arc::ptr_eq(&self.built, &other.built)
             && self.frame == other.frame
             && self.view == other.view
-            && (self.ghosts, self.wind) == (other.ghosts, other.wind)
+            && (self.ghosts, self.wind, self.marked) == (other.ghosts, other.wind, other.marked)
             && self.picture == other.picture
     }
 }
@@ -72,7 +75,15 @@ impl Screen {
     }
 
     /// Shows head and hair at a time (s); whether they are other than at the last call.
-    pub fn show(&mut self, painter: &Painter, rect: Rect, shown: &Shown<'_>, view: &Seen, time: f64) -> bool {
+    pub(super) fn show(
+        &mut self,
+        painter: &Painter,
+        rect: Rect,
+        shown: &Shown<'_>,
+        view: &Seen,
+        marked: &Marked,
+        time: f64,
+    ) -> bool {
         let now = Drawn {
             number: shown.take.number,
             built: shown.take.built.clone(),
@@ -81,14 +92,15 @@ impl Screen {
             view: *view,
             ghosts: shown.ghosts,
             wind: shows_wind(shown),
+            marked: marked.number,
         };
         let is_new = self.drawn.as_ref() != Some(&now);
         if is_new {
-            self.draw(shown, view, if self.is_slow { 2 } else { 1 });
+            self.draw(shown, view, marked, if self.is_slow { 2 } else { 1 });
             self.coarse_since = self.is_slow.then_some(time);
             self.drawn = Some(now);
         } else if self.coarse_since.is_some_and(|since| time - since >= SETTLED) {
-            self.draw(shown, view, 1);
+            self.draw(shown, view, marked, 1);
             self.coarse_since = None;
         }
         if self.coarse_since.is_some() {
@@ -101,8 +113,8 @@ impl Screen {
     }
 
     /// Draws the picture, each side `part` times smaller, and as many times fewer hairs in a lock.
-    fn draw(&mut self, shown: &Shown<'_>, view: &Seen, part: u32) {
-        let lines = lines(shown, view);
+    fn draw(&mut self, shown: &Shown<'_>, view: &Seen, marked: &Marked, part: u32) {
+        let lines = [lines(shown, view), marked.lines.clone()].concat();
         let view = Seen { size: view.size.map(|side| (side / part).max(1)), scale: view.scale / part as f32, ..*view };
         let bodies = shown.take.bodies(shown.frame);
         let drawing = shown.take.drawing(shown.frame, &bodies, shown.picture, view);

@@ -4,12 +4,14 @@ use std::ops::RangeInclusive;
 
 use glam::Vec3;
 use nabiki::field::Keyframe;
+use nabiki::region::Region;
 use nabiki::solve::Answer;
 use nabiki_render::Picture;
 
 use super::Navigation;
 use crate::document::Phase;
 use crate::take::Take;
+use crate::tools::Tools;
 
 /// All that is shown, and what is selected of it.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +42,12 @@ pub struct Shown<'a> {
     pub hands_off: bool,
     /// Which buttons move the camera.
     pub navigation: Navigation,
+    /// The tool at hand.
+    pub tools: &'a Tools,
+    /// The regions of the scene as it is now.
+    pub regions: &'a [Region],
+    /// Whether the scene is in the free form, which regions and aims need.
+    pub is_free: bool,
 }
 
 /// What a hand did in the view, for the session to make true.
@@ -64,6 +72,22 @@ pub enum Touch {
         interval: usize,
         /// Whether the hand still pulls, has let go, or something nearer was found after it had.
         phase: Phase,
+    },
+    /// Another tool, or the same set otherwise.
+    Use(Box<Tools>),
+    /// A region is painted.
+    Painted {
+        /// Which; a new one if it is left out.
+        region: Option<usize>,
+        /// The region as the brush has left it.
+        painted: Box<Region>,
+    },
+    /// Hair is combed in a frame.
+    Combed {
+        /// The frame.
+        frame: u32,
+        /// Strands by their numbers, as they should lie (head space, cm).
+        strands: Vec<(usize, Vec<Vec3>)>,
     },
     /// A drag was given up: all as it was before its first touch.
     Undone,

@@ -10,6 +10,7 @@ use nabiki_scene::{Scene, Shown as Strands};
 
 use super::*;
 use crate::document::Phase;
+use crate::tools::Tools;
 
 /// A window with the view alone.
 struct Window {
@@ -141,8 +142,13 @@ fn shown(take: &Take, frame: u32) -> Shown<'_> {
         final_picture: true,
         strands_in_final: 60,
         navigation: Navigation::Blender,
+        tools: &PULLING,
+        regions: &scene.free.regions,
+        is_free: true,
     }
 }
+
+static PULLING: std::sync::LazyLock<Tools> = std::sync::LazyLock::new(Tools::default);
 
 fn press(at: Pos2, pressed: bool) -> Vec<Event> {
     button(at, PointerButton::Primary, pressed, Modifiers::NONE)
@@ -200,7 +206,7 @@ fn the_camera_moves_by_both_presets_and_by_a_drag_on_the_ground() {
         (Navigation::Blender, PointerButton::Primary, Modifiers::NONE),
     ] {
         let mut window = Window { navigation, modifiers, ..Window::new() };
-        let corner = pos2(30.0, 30.0);
+        let corner = pos2(30.0, 570.0);
         let before = window.view.camera();
         window.run(&[Event::PointerMoved(corner)]);
         window.run(&button(corner, which, true, modifiers));
@@ -293,11 +299,11 @@ fn what_was_let_go_says_how_far_it_falls_short_while_nothing_else_is_done() {
     assert_eq!(window.view.fell_short(&shown(&window.take, 14)), None);
     assert_eq!(window.view.fell_short(&Shown { playing: true, ..shown(&window.take, 15) }), None);
     assert_eq!(window.view.fell_short(&shown(&still, 15)), None, "undone, nothing was asked");
-    window.run(&[Event::PointerMoved(pos2(30.0, 30.0))]);
+    window.run(&[Event::PointerMoved(pos2(30.0, 570.0))]);
     assert_eq!(window.view.fell_short(&shown(&window.take, 15)), said);
     let felt = window.view.marks().felt.expect("the timeline still shows the frames that feel it");
     assert!(felt.contains(&15), "{felt:?}");
-    window.run(&press(pos2(30.0, 30.0), true));
+    window.run(&press(pos2(30.0, 570.0), true));
     assert_eq!(window.view.fell_short(&shown(&window.take, 15)), None);
 }
 

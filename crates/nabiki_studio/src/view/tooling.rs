@@ -1,0 +1,287 @@
+//! Strokes of the brush and the comb: from press to release.
+
+use eframe::egui;
+use glam::{Vec2, Vec3};
+use nabiki::region::Region;
+use nabiki_render::View as Camera;
+use nabiki_view::Line;
+
+use super::brush::{Seen, Weights};
+use super::camera::place_in_plane;
+use super::comb::Comb;
+use super::hand::Hand;
+use super::pick::Skins;
+use super::{Shown, Touch, View, camera};
+use crate::tools::{Stroke, Tool};
+
+/// Linear colours of painted and of combed hair.
+const PAINTED: [f32; 3] = [1.0, 0.35, 0.04];
+const COMBED: [f32; 3] = [0.25, 0.9, 1.0];
+
+/// A stroke of the brush under way.
+#[derive(Debug)]
+pub struct Painting {
+    region: Option<usize>,
+    stroke: Stroke,
+    before: Weights,
+    now: Weights,
+    /// How much of its strength it has given each strand.
+    covered: Vec<f32>,
+    /// Where it has been (px), all of it for a lasso.
+    way: Vec<Vec2>,
+}
+
+/// Hair in the comb.
+#[derive(Debug)]
+pub struct Combing {
+    comb: Comb,
+    frame: u32,
+    from: Vec2,
+    /// The strands as they lie now.
+    strands: Vec<(usize, Vec<Vec3>)>,
+}
+
+/// The lines over the hair, and what they are of.
+#[derive(Debug, Default)]
+pub(super) struct Marked {
+    of: Option<(u64, u32, Option<Region>)>,
+    /// Whether a hand was changing it.
+    by_hand: bool,
+    /// The lines.
+    pub lines: Vec<Line>,
+    /// Counts their changes.
+    pub number: u64,
+}
+
+impl View {
+    /// Uses brush or comb.
+    pub(super) fn use_tool(
+        &mut self,
+        ui: &egui::Ui,
+        over: bool,
+        shown: &Shown<'_>,
+        view: &Camera,
+        rect: egui::Rect,
+    ) -> Vec<Touch> {
+        let mut touches = Vec::new();
+        let scale = ui.pixels_per_point();
+        let Some(at) = ui.input(|input| input.pointer.latest_pos()) else { return touches };
+        let pixel = (at - rect.min) * scale;
+        let pixel = Vec2::new(pixel.x, pixel.y);
+        let (pressed, down, escape, modifiers) = ui.input(|input| {
+            let primary = egui::PointerButton::Primary;
+            let pointer = &input.pointer;
+            (
+                pointer.button_pressed(primary),
+                pointer.button_down(primary),
+                input.key_pressed(egui::Key::Escape),
+                input.modifiers,
+            )
+        });
+        if escape && self.hand.is_busy() {
+            self.hand = Hand::Idle;
+            return touches;
+        }
+        let take = shown.take;
+        let in_head = view.in_head(&take.pose(shown.frame));
+        let skins = Skins::of(take, shown.frame);
+        let seen = Seen {
+            view: &in_head,
+            points: take.points(shown.frame),
+            strands: take.strands(),
+            among: take.at_hand(),
+            skins: &skins,
+        };
+        let radius = shown.tools.radius * scale;
+        let on_button = self.buttons.iter().any(|button| button.contains(at));
+        if pressed && over && !on_button && matches!(self.hand, Hand::Idle) {
+            touches.extend(std::mem::take(&mut self.refused).then_some(Touch::Heard));
+            self.let_go = None;
+            match self.begin(shown, &seen, pixel, radius, modifiers) {
+                Ok(hand) => self.hand = hand,
+                Err(why) => touches.push(Touch::Refused(why)),
+            }
+        }
+        match &mut self.hand {
+            Hand::Paint(painting) => {
+                painting.go(&seen, pixel, radius, shown);
+                if !down {
+                    touches.extend(painting.ended(&seen, shown));
+                    self.hand = Hand::Idle;
+                }
+            }
+            Hand::Comb(combing) => {
+                combing.go(&seen, pixel);
+                if !down {
+                    touches.extend(combing.ended());
+                    self.hand = Hand::Idle;
+                }
+            }
+            _ => {}
+        }
+        touches
+    }
+
+    /// What a press begins: a stroke on hair, or a turn of the camera beside it.
+    fn begin(
+        &self,
+        shown: &Shown<'_>,
+        seen: &Seen<'_>,
+        pixel: Vec2,
+        radius: f32,
+        modifiers: egui::Modifiers,
+    ) -> Result<Hand, String> {
+        if shown.playing {
+            return Ok(Hand::Camera(camera::Gesture::Orbit));
+        }
+        if !shown.is_free {
+            let table = if shown.tools.tool == Tool::Comb { "Aims need" } else { "Regions need" };
+            return Err(format!("{table} the free form: choose it on the Motion page (motion.form)."));
+        }
+        if shown.tools.tool == Tool::Comb {
+            let Some(comb) = Comb::take(seen, pixel, radius) else { return Ok(Hand::Camera(camera::Gesture::Orbit)) };
+            if shown.frame == 0 {
+                return Err("Frame 0 is the hair at rest: go to a later frame to comb it.".to_owned());
+            }
+            return Ok(Hand::Comb(Box::new(Combing { comb, frame: shown.frame, from: pixel, strands: Vec::new() })));
+        }
+        let lasso = shown.tools.stroke == Stroke::Lasso;
+        if !lasso && seen.under([pixel; 2], radius).iter().all(|&amount| amount == 0.0) {
+            return Ok(Hand::Camera(camera::Gesture::Orbit));
+        }
+        let stroke = match shown.tools.stroke {
+            _ if modifiers.command || modifiers.ctrl => Stroke::Erase,
+            _ if modifiers.shift && !lasso => Stroke::Smooth,
+            stroke => stroke,
+        };
+        let region = shown.tools.region.filter(|&i| i < shown.regions.len());
+        let before = Weights::new(seen.strands, seen.among, region.map(|i| &shown.regions[i]));
+        let covered = vec![0.0; before.of().len()];
+        Ok(Hand::Paint(Box::new(Painting { region, stroke, now: before.clone(), before, covered, way: vec![pixel] })))
+    }
+
+    /// Finds the lines that show what is painted or combed, if they are others than before.
+    pub(super) fn mark(&mut self, shown: &Shown<'_>) {
+        let tool = if shown.hands_off || shown.playing { Tool::Pull } else { shown.tools.tool };
+        let region = shown.tools.region.and_then(|i| shown.regions.get(i)).filter(|_| tool == Tool::Paint);
+        let of = (tool != Tool::Pull).then(|| (shown.take.number, shown.frame, region.cloned()));
+        let is_held = matches!(self.hand, Hand::Paint(_) | Hand::Comb(_));
+        if !is_held && of == self.marked.of && !self.marked.by_hand {
+            return;
+        }
+        let (take, strands) = (shown.take, shown.take.strands());
+        let points = take.points(shown.frame);
+        let mut lines = Vec::new();
+        match &self.hand {
+            Hand::Comb(combing) => combing.strands.iter().for_each(|(_, strand)| lay(&mut lines, strand, COMBED, 0.9)),
+            Hand::Paint(painting) => colour(&mut lines, strands, points, painting.now.of()),
+            _ if region.is_some() => {
+                let weights = Weights::new(strands, take.at_hand(), region);
+                colour(&mut lines, strands, points, weights.of());
+            }
+            _ => {}
+        }
+        let number = self.marked.number + 1;
+        self.marked = Marked { of, by_hand: is_held, lines, number };
+    }
+
+    /// The edge of brush or comb about the pointer, and the line of a lasso.
+    pub(super) fn draw_tool(
+        &self,
+        overlay: &super::overlay::Overlay<'_>,
+        pointer: Option<egui::Pos2>,
+        shown: &Shown<'_>,
+    ) {
+        if let Hand::Paint(painting) = &self.hand
+            && painting.is_lasso(shown)
+        {
+            let at = |p: &Vec2| overlay.rect.min + egui::vec2(p.x, p.y) / overlay.scale;
+            overlay.lasso(&painting.way.iter().map(at).collect::<Vec<_>>());
+        } else if let Some(at) =
+            pointer.filter(|_| shown.tools.tool == Tool::Comb || shown.tools.stroke != Stroke::Lasso)
+        {
+            overlay.brush(at, shown.tools.radius);
+        }
+    }
+}
+
+impl Painting {
+    fn is_lasso(&self, shown: &Shown<'_>) -> bool {
+        shown.tools.stroke == Stroke::Lasso
+    }
+
+    /// The pointer is at this pixel.
+    fn go(&mut self, seen: &Seen<'_>, pixel: Vec2, radius: f32, shown: &Shown<'_>) {
+        let last = self.way[self.way.len() - 1];
+        let is_first = self.way.len() == 1 && self.covered.iter().all(|&of| of == 0.0);
+        if pixel == last && !is_first {
+            return;
+        }
+        if self.is_lasso(shown) {
+            self.way.push(pixel);
+            return;
+        }
+        let touched = seen.under([last, pixel], radius);
+        let touched = if shown.tools.mirror { self.before.mirrored(&touched) } else { touched };
+        let strength = shown.tools.strength;
+        if self.stroke == Stroke::Smooth {
+            // It goes on smoothing where it passes again.
+            let covered: Vec<f32> = touched.iter().map(|of| 0.5 * strength * of).collect();
+            self.now = self.now.stroked(self.stroke, &covered);
+            self.covered = covered;
+        } else {
+            self.covered.iter_mut().zip(&touched).for_each(|(of, touched)| *of = of.max(strength * touched));
+            self.now = self.before.stroked(self.stroke, &self.covered);
+        }
+        self.way = vec![pixel];
+    }
+
+    /// The button is up.
+    fn ended(&mut self, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<Touch> {
+        if self.is_lasso(shown) {
+            let chosen = seen.within(&self.way);
+            let chosen = if shown.tools.mirror { self.before.mirrored(&chosen) } else { chosen };
+            let covered: Vec<f32> = chosen.iter().map(|of| shown.tools.strength * of).collect();
+            self.now = self.before.stroked(self.stroke, &covered);
+        }
+        (self.now != self.before).then(|| {
+            let mut painted = self.region.map_or_else(Region::default, |i| shown.regions[i].clone());
+            self.now.paint(&mut painted);
+            Touch::Painted { region: self.region, painted: Box::new(painted) }
+        })
+    }
+}
+
+impl Combing {
+    fn go(&mut self, seen: &Seen<'_>, pixel: Vec2) {
+        let at = |pixel| place_in_plane(seen.view, pixel, self.comb.hand);
+        let way = at(pixel) - at(self.from);
+        self.strands = if pixel == self.from { Vec::new() } else { self.comb.combed(way, seen.skins) };
+    }
+
+    fn ended(&mut self) -> Option<Touch> {
+        let strands = std::mem::take(&mut self.strands);
+        (!strands.is_empty()).then_some(Touch::Combed { frame: self.frame, strands })
+    }
+}
+
+/// Lines along the strands that belong to a region, brighter the more they do.
+fn colour(lines: &mut Vec<Line>, strands: &nabiki::Strands, points: &[Vec3], weights: &[f32]) {
+    for (strand, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+        lay(lines, &points[strands.range(strand)], PAINTED, 0.15 + 0.8 * weight);
+    }
+}
+
+/// Lines along a strand.
+fn lay(lines: &mut Vec<Line>, strand: &[Vec3], [r, g, b]: [f32; 3], alpha: f32) {
+    const WIDTH: f32 = 2.2;
+    let of = [r, g, b, alpha];
+    lines.extend(strand.windows(2).map(|ends| Line {
+        a: ends[0].to_array(),
+        width: WIDTH,
+        b: ends[1].to_array(),
+        pad: 0.0,
+        a_colour: of,
+        b_colour: of,
+    }));
+}
