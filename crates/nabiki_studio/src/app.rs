@@ -384,6 +384,7 @@ impl Panes<'_> {
             navigation: preferences.navigation,
             tools: self.session.tools(),
             regions: &scene.free.regions,
+            aims: &scene.aims,
             is_free: scene.form == FormChoice::Free,
         };
         let rect = ui.available_rect_before_wrap();

@@ -189,7 +189,7 @@ impl View {
         } else {
             touches.extend(self.use_tool(ui, response.contains_pointer(), shown, &view, rect));
         }
-        self.mark(shown);
+        self.mark(shown, &view);
         if let Some(let_go) = &mut self.let_go {
             touches.extend(let_go.settle(shown, now));
             if let_go.is_looking() {
@@ -204,7 +204,9 @@ impl View {
         self.felt = self.let_go.as_ref().and_then(|let_go| let_go.felt(shown.force));
         // Arrows would hide the hair that is looked at.
         let pulls = matches!(self.hand, Hand::Hair(_)) || self.let_go.as_ref().is_some_and(LetGo::is_looking);
-        let shown = &Shown { wind: shown.wind && !pulls, ..*shown };
+        let tool = shown.tools.tool != Tool::Pull && !shown.hands_off;
+        let selected_interval = shown.selected_interval.filter(|_| !tool);
+        let shown = &Shown { wind: shown.wind && !pulls && !tool, selected_interval, ..*shown };
 
         let painter = ui.painter_at(rect);
         let overlay = Overlay { painter: &painter, rect, scale };

@@ -116,7 +116,7 @@ const CASES: [Case; 10] = [
             go(window, 45);
             window.key_press(Key::H);
             window.step();
-            stroke(window, &[vec2(0.33, 0.4), vec2(0.33, 0.6), vec2(0.4, 0.8)]);
+            stroke(window, &[vec2(0.3, 0.52), vec2(0.3, 0.7), vec2(0.36, 0.88)]);
             settle(window);
         },
     },

@@ -21,6 +21,8 @@ mod hands;
 mod sizes;
 #[path = "window/strangers.rs"]
 mod strangers;
+#[path = "window/tools.rs"]
+mod tools;
 
 const TEXT: &str = "# A breeze.\n[hair]\nstrands = 60\nsegments = 18\n[motion]\nform = \"free\"\nframes = 40\n\n\
                     [[force]]\nthrough = 20     # then calm\nvector = [-100, 0, 0]\n\n[[force]]\nthrough = 40\nvector = [0, 0, 0]\n";

@@ -7,6 +7,7 @@ use nabiki::field::Keyframe;
 use nabiki::region::Region;
 use nabiki::solve::Answer;
 use nabiki_render::Picture;
+use nabiki_scene::scene::AimSettings;
 
 use super::Navigation;
 use crate::document::Phase;
@@ -46,6 +47,8 @@ pub struct Shown<'a> {
     pub tools: &'a Tools,
     /// The regions of the scene as it is now.
     pub regions: &'a [Region],
+    /// The aims of the scene as it is now.
+    pub aims: &'a [AimSettings],
     /// Whether the scene is in the free form, which regions and aims need.
     pub is_free: bool,
 }

@@ -144,6 +144,7 @@ fn shown(take: &Take, frame: u32) -> Shown<'_> {
         navigation: Navigation::Blender,
         tools: &PULLING,
         regions: &scene.free.regions,
+        aims: &scene.aims,
         is_free: true,
     }
 }

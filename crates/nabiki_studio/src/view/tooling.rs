@@ -44,13 +44,24 @@ pub struct Combing {
 /// The lines over the hair, and what they are of.
 #[derive(Debug, Default)]
 pub(super) struct Marked {
-    of: Option<(u64, u32, Option<Region>)>,
+    of: Option<Of>,
     /// Whether a hand was changing it.
     by_hand: bool,
     /// The lines.
     pub lines: Vec<Line>,
     /// Counts their changes.
     pub number: u64,
+}
+
+/// What the lines are of.
+#[derive(Clone, Debug, PartialEq)]
+struct Of {
+    take: u64,
+    frame: u32,
+    view: Camera,
+    region: Option<Region>,
+    /// Curves of the aims that are posed in the frame.
+    curves: Vec<Vec<Vec3>>,
 }
 
 impl View {
@@ -161,26 +172,38 @@ impl View {
     }
 
     /// Finds the lines that show what is painted or combed, if they are others than before.
-    pub(super) fn mark(&mut self, shown: &Shown<'_>) {
+    pub(super) fn mark(&mut self, shown: &Shown<'_>, view: &Camera) {
         let tool = if shown.hands_off || shown.playing { Tool::Pull } else { shown.tools.tool };
         let region = shown.tools.region.and_then(|i| shown.regions.get(i)).filter(|_| tool == Tool::Paint);
-        let of = (tool != Tool::Pull).then(|| (shown.take.number, shown.frame, region.cloned()));
+        let posed = shown.aims.iter().filter(|aim| tool == Tool::Comb && aim.frame == Some(shown.frame));
+        let of = (tool != Tool::Pull).then(|| Of {
+            take: shown.take.number,
+            frame: shown.frame,
+            view: *view,
+            region: region.cloned(),
+            curves: posed.flat_map(|aim| aim.curves.clone()).collect(),
+        });
         let is_held = matches!(self.hand, Hand::Paint(_) | Hand::Comb(_));
         if !is_held && of == self.marked.of && !self.marked.by_hand {
             return;
         }
         let (take, strands) = (shown.take, shown.take.strands());
         let points = take.points(shown.frame);
-        let mut lines = Vec::new();
+        let in_head = view.in_head(&take.pose(shown.frame));
+        let mut lines = Lines { view: &in_head, lines: Vec::new() };
+        for curve in of.iter().flat_map(|of| &of.curves) {
+            lines.lay(curve, COMBED, 0.45);
+        }
         match &self.hand {
-            Hand::Comb(combing) => combing.strands.iter().for_each(|(_, strand)| lay(&mut lines, strand, COMBED, 0.9)),
-            Hand::Paint(painting) => colour(&mut lines, strands, points, painting.now.of()),
+            Hand::Comb(combing) => combing.strands.iter().for_each(|(_, strand)| lines.lay(strand, COMBED, 0.9)),
+            Hand::Paint(painting) => lines.colour(strands, points, painting.now.of()),
             _ if region.is_some() => {
                 let weights = Weights::new(strands, take.at_hand(), region);
-                colour(&mut lines, strands, points, weights.of());
+                lines.colour(strands, points, weights.of());
             }
             _ => {}
         }
+        let lines = lines.lines;
         let number = self.marked.number + 1;
         self.marked = Marked { of, by_hand: is_held, lines, number };
     }
@@ -265,23 +288,35 @@ impl Combing {
     }
 }
 
-/// Lines along the strands that belong to a region, brighter the more they do.
-fn colour(lines: &mut Vec<Line>, strands: &nabiki::Strands, points: &[Vec3], weights: &[f32]) {
-    for (strand, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
-        lay(lines, &points[strands.range(strand)], PAINTED, 0.15 + 0.8 * weight);
-    }
+/// Lines over hair, as a camera sees it.
+struct Lines<'a> {
+    /// In head space.
+    view: &'a Camera,
+    lines: Vec<Line>,
 }
 
-/// Lines along a strand.
-fn lay(lines: &mut Vec<Line>, strand: &[Vec3], [r, g, b]: [f32; 3], alpha: f32) {
-    const WIDTH: f32 = 2.2;
-    let of = [r, g, b, alpha];
-    lines.extend(strand.windows(2).map(|ends| Line {
-        a: ends[0].to_array(),
-        width: WIDTH,
-        b: ends[1].to_array(),
-        pad: 0.0,
-        a_colour: of,
-        b_colour: of,
-    }));
+impl Lines<'_> {
+    /// Along the strands that belong to a region, brighter the more they do.
+    fn colour(&mut self, strands: &nabiki::Strands, points: &[Vec3], weights: &[f32]) {
+        for (strand, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+            self.lay(&points[strands.range(strand)], PAINTED, 0.15 + 0.8 * weight);
+        }
+    }
+
+    /// Along a strand, and a little before it, or it would be hidden by its own lock.
+    fn lay(&mut self, strand: &[Vec3], [r, g, b]: [f32; 3], alpha: f32) {
+        const WIDTH: f32 = 2.2;
+        const BEFORE_CM: f32 = 0.3;
+        let of = [r, g, b, alpha];
+        let place = |p: Vec3| (p + self.view.toward_eye(p) * BEFORE_CM).to_array();
+        let line = |ends: &[Vec3]| Line {
+            a: place(ends[0]),
+            width: WIDTH,
+            b: place(ends[1]),
+            pad: 0.0,
+            a_colour: of,
+            b_colour: of,
+        };
+        self.lines.extend(strand.windows(2).map(line));
+    }
 }
