@@ -108,8 +108,10 @@ impl Window<'_> {
     /// Takes hold of some hair: somewhere it is under the pointer.
     fn take_hold(&mut self) -> Pos2 {
         let view = self.harness.get_by_label("View of the hair").rect();
-        let mut places =
+        let places =
             (0..400).map(|n| view.min + view.size() * vec2((n % 20) as f32 + 0.5, (n / 20) as f32 + 0.5) / 20.0);
+        // Below the tools.
+        let mut places = places.filter(|at| at.y > view.top() + 44.0);
         let held = places.find(|&at| {
             self.harness.hover_at(at);
             self.button(at, true);
