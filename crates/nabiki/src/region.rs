@@ -36,6 +36,10 @@ settings! {
         /// the root counts. It is how much the strand belongs to the region: 0 not at all, 1 fully.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub attribute: Option<String> = None => "Attribute", open "none";
+        /// Values of the attribute that belong to the region, such as the numbers of clumps. Without them, the attribute is a
+        /// weight.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub values: Vec<i32> = Vec::new() => "Values";
         /// A picture over the head, PNG: white where hair belongs to it fully, black where it does not. Hair finds its
         /// place by its own root UVs, or else by the UVs of the head's mesh where it grows.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -118,6 +122,13 @@ impl Region {
 
     /// Refuses a region of no hair in particular, a line without a length, and a place that no root can be in.
     fn reaches_hair(&self, at: &Place) -> Result<(), SettingError> {
+        if !self.values.is_empty() && self.attribute.is_none() {
+            return refused(
+                &at.key("values"),
+                format!("{:?}", self.values),
+                "are values of an attribute: add attribute",
+            );
+        }
         if let (None, Some(to)) = (self.near, self.to) {
             return refused(&at.key("to"), to, "is the end of a line that begins at near: add near");
         }

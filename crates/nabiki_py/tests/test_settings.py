@@ -43,6 +43,7 @@ variation = {{ size = 2.0 }}
 name = "fringe"
 groups = ["top"]
 attribute = "painted"
+values = [1]
 map = "m.png"
 painted = [[8, 4, 0, 1]]
 near = [8, 4, 0]

@@ -62,6 +62,7 @@ const PAINTED: &str = r#"
     float[] primvars:painted = [0.25, 1] ( interpolation = "uniform" )
     float[] primvars:at_points = [0.5, 9, 9, 0, 9, 9] ( interpolation = "vertex" )
     float[] primvars:large = [1.5, 1] ( interpolation = "uniform" )
+    int[] primvars:clump = [3, 7] ( interpolation = "uniform" )
     string[] primvars:word = ["a", "b"] ( interpolation = "uniform" )"#;
 
 fn usda() -> String {
@@ -104,6 +105,8 @@ fn imported_hair_belongs_to_regions_by_its_prims_and_its_attributes() {
         ("attribute = \"painted\"", [0.25, 1.0, 0.25, 1.0]),
         ("attribute = \"at_points\"", [0.5, 0.0, 0.5, 0.0]),
         ("groups = [\"back\"]\nattribute = \"painted\"", [0.0, 0.0, 0.25, 1.0]),
+        ("attribute = \"clump\"\nvalues = [7]", [0.0, 1.0, 0.0, 1.0]),
+        ("attribute = \"clump\"\nvalues = [7, 3]\ngroups = [\"back\"]", [0.0, 0.0, 1.0, 1.0]),
         ("painted = [[6, 9, -2, 0.5], [6, 9, 2, 1]]\nwithin = 3", [0.5, 1.0, 0.0, 0.0]),
         ("painted = [[-6, 9, 2, 0.5]]\nwithin = 1\nsoft = 0\nattribute = \"painted\"", [0.0, 0.0, 0.0, 0.5]),
         ("groups = [\"back\"]\nattribute = \"painted\"\nnear = [-6, 9, 2]\nwithin = 1\nsoft = 0", [0.0, 0.0, 0.0, 1.0]),
@@ -168,6 +171,7 @@ fn groups_and_attributes_that_are_not_there_are_refused_with_those_that_are() {
             "painted = [[6, 9, -2, 2.0]]",
             "free.regions[0].painted[0] = [6.0, 9.0, -2.0, 2.0]: the fourth number is a weight, from 0 to 1",
         ),
+        ("values = [3]\nnear = [6, 9, 2]", "free.regions[0].values = [3]: are values of an attribute: add attribute"),
         ("hold = 2", "free.regions[0].near is missing: give near, groups, attribute, map or painted"),
     ] {
         let said = imported(region, "", Shown::All).map(|_| ()).unwrap_err();

@@ -278,7 +278,12 @@ fn region_in_words(region: &Region) -> String {
     if !region.groups.is_empty() {
         strands.push(format!("groups {}", region.groups.join(" and ")));
     }
-    strands.extend(region.attribute.as_ref().map(|attribute| format!("attribute {attribute}")));
+    strands.extend(region.attribute.as_ref().map(|attribute| match &region.values[..] {
+        [] => format!("attribute {attribute}"),
+        values => {
+            format!("attribute {attribute} of {}", values.iter().map(i32::to_string).collect::<Vec<_>>().join(", "))
+        }
+    }));
     strands.extend(region.map.as_ref().map(|map| format!("map {}", map.display())));
     match region.painted.len() {
         0 => {}

@@ -49,6 +49,7 @@ pub(super) const GROUPS: &[Group] = &[
             "name",
             "groups",
             "attribute",
+            "values",
             "map",
             "painted",
             "near",

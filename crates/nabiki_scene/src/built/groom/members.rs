@@ -27,6 +27,7 @@ pub(super) struct Selectors(Vec<Option<Selector>>);
 struct Selector {
     groups: Vec<String>,
     attribute: Option<String>,
+    values: Vec<i32>,
     map: Option<Arc<Map>>,
 }
 
@@ -64,8 +65,8 @@ impl Selectors {
                 let known = known.clone().flat_map(|of| &of.0).flatten().filter_map(|selector| selector.map.as_ref());
                 Map::of(scene, &format!("free.regions[{i}].map"), file, known, at)
             });
-            let (groups, attribute) = (region.groups.clone(), region.attribute.clone());
-            Ok(Some(Selector { groups, attribute, map: map.transpose()? }))
+            let (groups, attribute, values) = (region.groups.clone(), region.attribute.clone(), region.values.clone());
+            Ok(Some(Selector { groups, attribute, values, map: map.transpose()? }))
         };
         regions.iter().enumerate().map(of).collect::<Result<_>>().map(Self)
     }
@@ -98,7 +99,7 @@ impl Selector {
             weights.iter_mut().zip(groups).filter(|(_, group)| !chosen.contains(group)).for_each(|(w, _)| *w = 0.0);
         }
         if let Some(name) = &self.attribute {
-            let values = root_values(&format!("{key}.attribute"), hair, name)?;
+            let values = root_values(&format!("{key}.attribute"), hair, name, &self.values)?;
             weights.iter_mut().zip(values).for_each(|(weight, value)| *weight *= value as f32);
         }
         if let Some(map) = &self.map {
@@ -177,8 +178,8 @@ impl Map {
     }
 }
 
-/// The number of an attribute at each root.
-fn root_values(key: &str, hair: &Hair, name: &str) -> Refusable<Vec<f64>> {
+/// The weight by an attribute at each root: its number, or whether that is one of `chosen`, if there are any.
+fn root_values(key: &str, hair: &Hair, name: &str, chosen: &[i32]) -> Refusable<Vec<f64>> {
     let refused = |why: String| Err(SettingError::new(key, format!("{name:?}"), why));
     let of = &hair.attributes;
     let Some(found) = of.other.iter().find(|other| other.name == name) else {
@@ -209,6 +210,10 @@ fn root_values(key: &str, hair: &Hair, name: &str) -> Refusable<Vec<f64>> {
     };
     let index = |s: usize| if found.per == Per::Point { hair.strands.range(s).start } else { s };
     let values: Vec<f64> = (0..hair.strands.len()).map(|s| at(index(s))).collect();
+    if !chosen.is_empty() {
+        let belongs = |value: &f64| chosen.iter().any(|&of| f64::from(of) == *value);
+        return Ok(values.iter().map(|value| f64::from(u8::from(belongs(value)))).collect());
+    }
     match values.iter().enumerate().find(|(_, value)| !(0.0..=1.0).contains(*value)) {
         Some((s, value)) => {
             let (value, count) = (*value as f32, values.len());
