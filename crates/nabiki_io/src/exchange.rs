@@ -10,6 +10,7 @@ use nabiki_usd::StageReader;
 
 use crate::axis::Axis;
 use crate::error::{Error, Result};
+use crate::fbx_file::{is_fbx, outline_of};
 use crate::groom_curves::CurvePrim;
 use crate::input;
 use crate::kind::extension;
@@ -82,13 +83,14 @@ fn named(path: &Path, problem: Problem) -> Error {
 }
 
 /// The space that the file or its format declares. glTF is in metres, +y up. A USD layer declares both. Alembic is +y
-/// up by convention and has no unit. Other formats declare nothing.
+/// up by convention and has no unit. An FBX declares both. Other formats declare nothing.
 ///
 /// # Errors
 /// A layer that cannot be read, or an invalid unit or axis.
 pub fn declared_space(path: &Path) -> Result<DeclaredSpace> {
     match extension(path).as_str() {
         "glb" | "gltf" => Ok(DeclaredSpace::GLTF),
+        "fbx" => Ok(outline_of(path)?.space),
         _ if is_alembic(path) => Ok(DeclaredSpace { unit: None, up: Some(Axis::PlusY) }),
         _ if is_usd(path) => Opened::new(path)?.declared_space(),
         _ => Ok(DeclaredSpace::default()),
@@ -115,11 +117,14 @@ pub fn frames(path: &Path) -> Result<usize> {
     Ok(Opened::new(path)?.ask(|r| r.contents())?.times.len().max(1))
 }
 
-/// Frames per second of a layer or archive; `None` in other formats.
+/// Frames per second of a layer, an archive or an FBX; `None` in other formats.
 ///
 /// # Errors
 /// If the file is invalid.
 pub fn frame_rate(path: &Path) -> Result<Option<f64>> {
+    if is_fbx(path) {
+        return Ok(outline_of(path)?.rate);
+    }
     if !(is_usd(path) || is_alembic(path)) {
         return Ok(None);
     }

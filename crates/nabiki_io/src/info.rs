@@ -54,8 +54,8 @@ impl fmt::Display for Info {
     }
 }
 
-/// Summarises a file. The ending of the name decides: .hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda,
-/// .usdc, .abc, .bvh, .csv, .amc, .asf, .tof or .nabiki. (`nabiki_scene` handles scenes, .toml.)
+/// Summarises a file. The ending of the name decides: .hair, .tfx, .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, .usd,
+/// .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof or .nabiki. (`nabiki_scene` handles scenes, .toml.)
 ///
 /// # Errors
 /// An unknown ending, or an invalid file, in one line.
@@ -64,7 +64,7 @@ pub fn info(path: &Path) -> Result<Info> {
         "hair" | "tfx" | "tfxbone" => Ok(Info::Hair(HairInfo::of(&crate::hair::read(path)?))),
         "usd" | "usda" | "usdc" | "abc" => Ok(Info::Exchange(Box::new(ExchangeInfo::of_file(path)?))),
         "bvh" | "csv" | "amc" | "asf" | "tof" => Ok(Info::Motion(motion::survey(path)?)),
-        "glb" | "gltf" | "ply" | "tfxmesh" => Ok(Info::Mesh(MeshInfo::of_file(path)?)),
+        "glb" | "gltf" | "fbx" | "ply" | "tfxmesh" => Ok(Info::Mesh(MeshInfo::of_file(path)?)),
         "obj" => {
             let bytes = input::read(path, MOST_TEXT_BYTES)?;
             let is_hair = obj_text::text(&bytes).lines().any(|line| obj_text::words(line).next() == Some("l"));
@@ -81,7 +81,7 @@ pub fn info(path: &Path) -> Result<Info> {
             if other.is_empty() || may_be_pointer {
                 input::open(path)?;
             }
-            let known = ".hair, .tfx, .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \
+            let known = ".hair, .tfx, .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, .usd, .usda, .usdc, .abc, .bvh, .csv, .amc, .asf, .tof, \
                          .nabiki or .toml";
             Err(Error::new(format!("ending \"{other}\" is not one of {known}{}", way_out(other))).in_file(path))
         }

@@ -19,7 +19,8 @@ pub(crate) fn way_out(ending: &str) -> &'static str {
         "usdz" => "; it is a package: give the layer inside",
         "bgeo" | "geo" | "sc" | "gz" | "hip" | "hiplc" | "hipnc" => "; Houdini reads and writes USD and Alembic",
         "ma" | "mb" | "xgen" => "; Maya reads and writes Alembic and USD",
-        "fbx" | "blend" => "; its programs read and write USD and Alembic",
+        "fbx" => "; it holds heads and motion: its programs write hair as USD or Alembic",
+        "blend" => "; Blender reads and writes USD and Alembic",
         _ => "",
     }
 }
@@ -133,7 +134,7 @@ impl FileKind {
         let in_scene = |key: &str| format!("use it in a scene with {key} = \"{file}\"");
         match self {
             Self::YukselHair | Self::TressFxHair => in_scene("hair.file"),
-            Self::TressFxMesh | Self::Gltf | Self::Ply => in_scene("head.mesh"),
+            Self::TressFxMesh | Self::Gltf | Self::Fbx | Self::Ply => in_scene("head.mesh"),
             Self::Obj | Self::UsdText | Self::UsdCrate | Self::Alembic => {
                 format!("{} or head.mesh", in_scene("hair.file"))
             }

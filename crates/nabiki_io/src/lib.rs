@@ -25,6 +25,7 @@ pub mod cache;
 mod declared;
 pub mod error;
 pub mod exchange;
+mod fbx_file;
 mod finite;
 mod gltf_file;
 mod groom_curves;

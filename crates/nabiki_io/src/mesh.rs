@@ -1,6 +1,8 @@
-//! Triangle meshes of heads: .obj, .glb, .gltf, .ply, .tfxmesh, USD and Alembic. The ending of the name decides.
+//! Triangle meshes of heads: .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, USD and Alembic. The ending of the name decides.
 
 mod check;
+#[cfg(feature = "fbx")]
+pub(crate) mod fbx;
 pub(crate) mod glb;
 mod obj;
 pub(crate) mod parts;
@@ -18,7 +20,7 @@ use serde::Serialize;
 
 use crate::{
     error::{Error, Result},
-    exchange,
+    exchange, fbx_file,
     input::{self, MOST_BINARY_BYTES, MOST_TEXT_BYTES},
     kind::{extension, way_out},
     placement::Placement,
@@ -39,8 +41,9 @@ pub struct MeshReport {
 }
 
 /// Reads the triangles of a mesh file in its unit and axes. `groups` are the names of .obj groups or objects, glTF
-/// nodes or meshes, USD prims or Alembic objects to keep; if empty, everything is kept. Larger polygons become fans.
-/// Node transforms are applied, and glTF skins are deformed by the joints' pose in the file.
+/// or FBX nodes or meshes, USD prims or Alembic objects to keep; if empty, everything is kept. Larger polygons become fans.
+/// Node transforms are applied, glTF skins are deformed by the joints' pose in the file, and FBX skins
+/// are in their bind pose.
 pub fn read(path: &Path, groups: &[String]) -> Result<Mesh> {
     read_with_losses(path, groups).map(|(mesh, _)| mesh)
 }
@@ -53,6 +56,7 @@ pub fn read_with_losses(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<Str
     match extension(path).as_str() {
         "obj" => with_losses(&mut |lost| obj::from_bytes(&text()?, groups, lost)).map_err(named),
         "glb" | "gltf" => glb::from_bytes(&binary()?, path.parent(), groups).map_err(named),
+        "fbx" => fbx_file::mesh(&binary()?, groups).map_err(named),
         "ply" => with_losses(&mut |lost| ply(without_mark(&binary()?), groups, lost)).map_err(named),
         "tfxmesh" => from_bytes(&text()?, "tfxmesh", groups).map(|mesh| (mesh, Vec::new())).map_err(named),
         "abc" | "usd" | "usda" | "usdc" => exchange::mesh(path, groups),
@@ -61,7 +65,7 @@ pub fn read_with_losses(path: &Path, groups: &[String]) -> Result<(Mesh, Vec<Str
             if other.is_empty() {
                 input::open(path)?;
             }
-            let known = ".obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc or .abc";
+            let known = ".obj, .glb, .gltf, .fbx, .ply, .tfxmesh, .usd, .usda, .usdc or .abc";
             Err(named(Error::new(format!("ending \"{other}\" is not a mesh format: {known}{}", way_out(other)))))
         }
     }
@@ -78,13 +82,18 @@ pub fn is_gltf(path: &Path) -> bool {
     matches!(extension(path).as_str(), "glb" | "gltf")
 }
 
+/// Whether the file name ends like an FBX.
+pub fn is_fbx(path: &Path) -> bool {
+    fbx_file::is_fbx(path)
+}
+
 /// What some editors put before a text is no part of it.
 fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(input::BYTE_ORDER_MARK).unwrap_or(bytes)
 }
 
 /// Names for choosing parts of a mesh file, with the number of faces of each, most faces first: groups and objects of a
-/// .obj, nodes of a glTF with a mesh, and paths of meshes in a USD layer or Alembic archive. Empty for other formats.
+/// .obj, nodes of a glTF or FBX with a mesh, and paths of meshes in a USD layer or Alembic archive. Empty for other formats.
 ///
 /// # Errors
 /// A file that cannot be read.
@@ -92,6 +101,7 @@ pub fn groups(path: &Path) -> Result<Vec<(String, usize)>> {
     let mut groups = match extension(path).as_str() {
         "obj" => obj::groups(&input::read(path, MOST_TEXT_BYTES)?),
         "glb" | "gltf" => glb::groups(&input::read(path, MOST_BINARY_BYTES)?).map_err(|e| e.in_file(path))?,
+        "fbx" => fbx_file::groups(&input::read(path, MOST_BINARY_BYTES)?).map_err(|e| e.in_file(path))?,
         _ if exchange::is_usd(path) || exchange::is_alembic(path) => exchange::mesh_sizes(path)?,
         _ => Vec::new(),
     };
@@ -99,13 +109,14 @@ pub fn groups(path: &Path) -> Result<Vec<(String, usize)>> {
     Ok(groups)
 }
 
-/// Reads a mesh from memory. `extension` is `obj`, `ply`, `tfxmesh`, `glb` or `gltf`. Buffers in separate files are
+/// Reads a mesh from memory. `extension` is `obj`, `ply`, `tfxmesh`, `fbx`, `glb` or `gltf`. Buffers in separate files are
 /// refused.
 pub fn from_bytes(bytes: &[u8], extension: &str, groups: &[String]) -> Result<Mesh> {
     match extension {
         "obj" => obj::from_bytes(bytes, groups, &mut Vec::new()),
         "ply" => ply(bytes, groups, &mut Vec::new()),
         "tfxmesh" => tfxmesh::from_bytes(bytes).and_then(|mesh| without_parts(mesh, groups)),
+        "fbx" => fbx_file::mesh(bytes, groups).map(|(mesh, _)| mesh),
         _ => glb::from_bytes(bytes, None, groups).map(|(mesh, _)| mesh),
     }
 }

@@ -4,6 +4,8 @@ mod acclaim;
 mod bvh;
 mod clip;
 mod csv;
+#[cfg(feature = "fbx")]
+pub(crate) mod fbx;
 mod joints;
 mod mover;
 mod points;
@@ -19,11 +21,14 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::exchange;
+use crate::fbx_file;
 use crate::input::{self, MOST_BINARY_BYTES, MOST_TEXT_BYTES};
 use crate::kind::extension;
 use source::asked;
 
 pub(crate) use clip::Clip;
+#[cfg(feature = "fbx")]
+pub(crate) use {clip::choose_clip, joints::DEEPEST};
 
 pub use crate::axis::Axis;
 pub use mover::{ClipMover, clip_carries, clip_mover};
@@ -53,9 +58,10 @@ pub fn read(source: &MotionSource, frame_rate: f64) -> Result<HeadMotion> {
             track(source, &text, skeleton.as_deref())?.head_motion(source, frame_rate)
         }
         "glb" | "gltf" => clip(source, &input::read(file, MOST_BINARY_BYTES)?, frame_rate),
+        "fbx" => fbx_file::head_motion(source, &input::read(file, MOST_BINARY_BYTES)?, frame_rate).map_err(named),
         "abc" | "usd" | "usda" | "usdc" => exchange::track(file, &source.node)?.head_motion(source, frame_rate),
         other => {
-            let known = ".bvh, .amc, .tof, .glb, .gltf, .csv, .abc, .usd, .usda, .usdc, .pc2 and .mdd are read";
+            let known = ".bvh, .amc, .tof, .glb, .gltf, .fbx, .csv, .abc, .usd, .usda, .usdc, .pc2 and .mdd are read";
             Err(named(Error::new(format!("motion in a .{other} file: {known}"))))
         }
     }

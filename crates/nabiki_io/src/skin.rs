@@ -10,6 +10,7 @@ use nabiki_exchange::{BOUND_SHAPE, FIRST_SHAPE};
 
 use crate::error::{Error, Result};
 use crate::exchange;
+use crate::fbx_file::{self, is_fbx};
 use crate::input::{self, MOST_BINARY_BYTES};
 use crate::mesh::glb::{self, STILL_SHAPE};
 use crate::mesh::{self, Welded};
@@ -17,7 +18,7 @@ use crate::placement::Placement;
 use crate::point_cache::{PointFrames, is_point_cache};
 
 /// Whether meshes of a file bend: their points, joints or morphs move. `groups` chooses meshes as in [`mesh::read`], `clip` an
-/// animation of a glTF. Meshes that only go as a whole do not.
+/// animation of a glTF or FBX. Meshes that only go as a whole do not.
 ///
 /// # Errors
 /// If the file is invalid.
@@ -28,6 +29,10 @@ pub fn bends(path: &Path, groups: &[String], clip: &str) -> Result<bool> {
     if mesh::is_gltf(path) {
         let bytes = input::read(path, MOST_BINARY_BYTES)?;
         return glb::bends(&bytes, path.parent(), groups, clip).map_err(|e| e.in_file(path));
+    }
+    if is_fbx(path) {
+        let bytes = input::read(path, MOST_BINARY_BYTES)?;
+        return fbx_file::bends(&bytes, groups, clip).map_err(|e| e.in_file(path));
     }
     if is_point_cache(path) {
         return points_bend(path).map_err(|e| e.in_file(path));
@@ -110,6 +115,10 @@ pub fn each_frame(
     if mesh::is_gltf(path) {
         let bytes = input::read(path, MOST_BINARY_BYTES)?;
         return glb::each_bent(&bytes, path.parent(), groups, clip, &times, take).map_err(named);
+    }
+    if is_fbx(path) {
+        let bytes = input::read(path, MOST_BINARY_BYTES)?;
+        return fbx_file::each_bent(&bytes, groups, clip, &times, take).map_err(named);
     }
     exchange::each_bent(path, groups, &times, take).map_err(named)
 }

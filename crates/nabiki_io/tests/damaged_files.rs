@@ -17,6 +17,12 @@ const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\ng a\nf 1 
 const TFXMESH: &str = "numOfBones 1\n# bone index, bone name\n0 root\nnumOfVertices 3\n0 0 0 0 0 0 1 0 0 0 0 1 0 0 0\n\
     1 1 0 0 0 0 1 0 0 0 0 1 0 0 0\n2 0 1 0 0 0 1 0 0 0 0 1 0 0 0\nnumOfTriangles 1\n0 0 1 2\n";
 
+const FBX: &str = "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\nObjects: {\n\
+    Geometry: 1, \"Geometry::\", \"Mesh\" {\nVertices: *12 { a: 0,0,0,1,0,0,1,1,0,0,1,0 }\n\
+    PolygonVertexIndex: *7 { a: 0,1,2,-4,0,1,-3 }\n}\n\
+    Model: 2, \"Model::a\", \"Mesh\" {\nProperties70: {\nP: \"Lcl Scaling\", \"Lcl Scaling\", \"\", \"A\",-1,1,1\n}\n}\n}\n\
+    Connections: {\nC: \"OO\",1,2\nC: \"OO\",2,0\n}\n";
+
 /// A .glb of one triangle under a turned, mirrored node.
 fn glb() -> Vec<u8> {
     let json = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
@@ -42,7 +48,7 @@ fn glb() -> Vec<u8> {
 /// Reads all that a file offers; true if it was accepted.
 type Read = fn(&[u8]) -> bool;
 
-fn formats() -> [(&'static str, Vec<u8>, Read); 8] {
+fn formats() -> [(&'static str, Vec<u8>, Read); 9] {
     let read_cache: Read = |bytes| {
         let Ok(mut reader) = cache::Reader::from_bytes(bytes) else { return false };
         (0..reader.frame_count()).all(|frame| reader.hair(frame).is_ok())
@@ -55,6 +61,7 @@ fn formats() -> [(&'static str, Vec<u8>, Read); 8] {
         (".obj", OBJ.into(), |bytes| mesh::from_bytes(bytes, "obj", &[]).is_ok()),
         (".tfxmesh", TFXMESH.into(), |bytes| mesh::from_bytes(bytes, "tfxmesh", &[]).is_ok()),
         (".glb", glb(), |bytes| mesh::from_bytes(bytes, "glb", &[]).is_ok()),
+        (".fbx", FBX.into(), |bytes| mesh::from_bytes(bytes, "fbx", &[]).is_ok()),
         ("cache", samples::cache_bytes(), read_cache),
     ]
 }
@@ -63,6 +70,8 @@ fn formats() -> [(&'static str, Vec<u8>, Read); 8] {
 fn allowance(name: &str, bytes: &[u8]) -> usize {
     match name {
         ".obj" | ".obj lines" | ".tfxmesh" | ".glb" => 64 * bytes.len() + (1 << 18),
+        // ufbx makes its tables of names and properties for any file.
+        ".fbx" => 64 * bytes.len() + (1 << 22),
         _ => 4 * bytes.len() + (1 << 12),
     }
 }
@@ -80,7 +89,7 @@ fn survives(name: &str, bytes: &[u8], read: Read) -> bool {
 fn no_damage_panics_or_takes_more_memory_than_a_small_multiple_of_the_file() {
     for (name, bytes, read) in formats() {
         assert!(survives(name, &bytes, read), "{name}: the sound file is read");
-        let binary = !matches!(name, ".obj" | ".obj lines" | ".tfxmesh");
+        let binary = !matches!(name, ".obj" | ".obj lines" | ".tfxmesh" | ".fbx");
         for length in 0..bytes.len() {
             let accepted = survives(name, &bytes[..length], read);
             assert!(!(accepted && binary), "{name}: cut to {length} of {} bytes, it is refused", bytes.len());

@@ -4,6 +4,7 @@
 
 mod hostile {
     pub mod crate_file;
+    pub mod fbx;
     pub mod layers;
     pub mod meshes;
     pub mod motions;
@@ -12,7 +13,7 @@ mod hostile {
 
 use std::path::Path;
 
-use hostile::{layers, meshes, motions};
+use hostile::{fbx, layers, meshes, motions};
 use nabiki_exchange::Budget;
 use nabiki_io::motion::{self, Axis, MotionSource};
 use nabiki_io::{Error, GroomFile, Placement, exchange, info, mesh};
@@ -43,14 +44,14 @@ fn read(path: &Path) {
             refused(error);
         }
     }
-    if matches!(&*ending, "usda" | "usdc" | "abc" | "obj" | "ply" | "glb" | "gltf" | "tfxmesh") {
+    if matches!(&*ending, "usda" | "usdc" | "abc" | "obj" | "ply" | "glb" | "gltf" | "fbx" | "tfxmesh") {
         if let Err(error) = mesh::import(path, &Placement::default(), &[]) {
             refused(error);
         }
         let missing = ["no such group".to_owned()];
         refused(mesh::import(path, &Placement::default(), &missing).unwrap_err());
     }
-    if matches!(&*ending, "usda" | "usdc" | "abc" | "glb" | "gltf" | "bvh" | "csv" | "amc" | "tof") {
+    if matches!(&*ending, "usda" | "usdc" | "abc" | "glb" | "gltf" | "fbx" | "bvh" | "csv" | "amc" | "tof") {
         let skeleton = ["asf", "tof"].map(|ending| path.with_extension(format!("skeleton.{ending}")));
         let source = MotionSource {
             file: path.to_owned(),
@@ -74,7 +75,7 @@ fn read(path: &Path) {
 #[test]
 fn small_files_that_ask_for_much_take_what_their_length_allows() {
     let folder = tempfile::tempdir().unwrap();
-    let made = [layers::crate_files, layers::texts, layers::archives, meshes::all, motions::all];
+    let made = [layers::crate_files, layers::texts, layers::archives, meshes::all, motions::all, fbx::all];
     let mut files = 0;
     for (name, bytes) in made.into_iter().flat_map(|make| make()) {
         let path = folder.path().join(name);

@@ -24,7 +24,7 @@ fn refused(path: &Path) -> Vec<String> {
         "hair" | "tfx" => vec![hair::read(path).unwrap_err().to_string()],
         "obj" => vec![hair::read(path).unwrap_err().to_string(), mesh::read(path, &[]).unwrap_err().to_string()],
         "ply" | "tfxmesh" => vec![mesh::read(path, &[]).unwrap_err().to_string()],
-        "glb" | "gltf" => {
+        "glb" | "gltf" | "fbx" => {
             vec![mesh::read(path, &[]).unwrap_err().to_string(), motion::read(&source, 24.0).unwrap_err().to_string()]
         }
         "bvh" | "csv" | "tof" => vec![motion::read(&source, 24.0).unwrap_err().to_string()],
@@ -46,8 +46,8 @@ fn refused(path: &Path) -> Vec<String> {
 fn a_pointer_is_named_for_every_format() {
     let folder = tempfile::tempdir().unwrap();
     let endings = [
-        "toml", "nabiki", "hair", "tfx", "obj", "glb", "gltf", "ply", "tfxmesh", "usd", "usda", "usdc", "abc", "bvh",
-        "csv", "tof", "amc",
+        "toml", "nabiki", "hair", "tfx", "obj", "glb", "gltf", "fbx", "ply", "tfxmesh", "usd", "usda", "usdc", "abc",
+        "bvh", "csv", "tof", "amc",
     ];
     for ending in endings {
         let path = folder.path().join(format!("file.{ending}"));
@@ -63,7 +63,7 @@ fn a_pointer_is_named_for_every_format() {
 #[test]
 fn a_pointer_of_what_is_not_read_is_named_too() {
     let folder = tempfile::tempdir().unwrap();
-    for ending in ["png", "exr", "usdz", "fbx", "json", ""] {
+    for ending in ["png", "exr", "usdz", "blend", "json", ""] {
         let path = folder.path().join(format!("file.{ending}"));
         std::fs::write(&path, POINTER).unwrap();
         let said = info::info(&path).unwrap_err().to_string();

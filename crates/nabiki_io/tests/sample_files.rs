@@ -78,6 +78,7 @@ fn every_mesh_format_holds_the_solid_outside_out() {
         "solid.tfxmesh",
         "solid.glb",
         "solid.gltf",
+        "solid.fbx",
         "groom.usda",
     ] {
         let read = mesh::read(&file(name), &[]).unwrap();
@@ -178,7 +179,7 @@ fn nod(name: &str) -> MotionSource {
 
 #[test]
 fn every_motion_format_holds_the_nod() {
-    for name in ["nod.bvh", "nod.amc", "nod.tof", "nod.csv", "solid.glb", "solid.gltf", "groom.usda"] {
+    for name in ["nod.bvh", "nod.amc", "nod.tof", "nod.csv", "solid.glb", "solid.gltf", "solid.fbx", "groom.usda"] {
         let read = motion::read(&nod(name), 48.0).unwrap();
         assert_eq!(read.poses.len(), 25, "{name}");
         for (i, pose) in read.poses.iter().enumerate() {
@@ -242,13 +243,13 @@ fn the_json_of_every_kind_has_its_kind_and_its_fields() {
         assert!(hair["strand_length"]["median"].is_f64() && hair["attributes"].is_array(), "{name}: {hair}");
         assert_eq!(hair["likely_unit"], "m", "{name}");
     }
-    for name in ["solid.obj", "solid_text.ply", "solid.tfxmesh", "solid.glb", "solid.gltf"] {
+    for name in ["solid.obj", "solid_text.ply", "solid.tfxmesh", "solid.glb", "solid.gltf", "solid.fbx"] {
         let mesh = json(name);
         assert_eq!(mesh["kind"], "mesh", "{name}");
         assert_eq!((mesh["vertices"].as_u64(), mesh["triangles"].as_u64()), (Some(6), Some(8)), "{name}");
         assert_eq!((mesh["open_edges"].as_u64(), mesh["crowded_edges"].as_u64()), (Some(0), Some(0)), "{name}");
-        // The format of a glTF states what the others leave to be guessed.
-        let states = name.starts_with("solid.gl");
+        // The format of a glTF, and an FBX itself, state what the others leave to be guessed.
+        let states = name.starts_with("solid.gl") || name == "solid.fbx";
         assert_eq!(mesh.get("likely_unit").and_then(Value::as_str), (!states).then_some("m"), "{name}");
         assert_eq!(mesh["unit_cm"].as_f64(), states.then_some(100.0), "{name}");
         assert_eq!(mesh["up"].as_str(), states.then_some("+y"), "{name}");
@@ -257,6 +258,9 @@ fn the_json_of_every_kind_has_its_kind_and_its_fields() {
     }
     assert_eq!(json("solid.glb")["clips"][0], serde_json::json!({ "name": "nod", "end": 0.5 }));
     assert_eq!(json("solid.glb")["nodes"], serde_json::json!(["solid", "Hips", "Head"]));
+    let fbx = json("solid.fbx");
+    assert_eq!((&fbx["clips"], &fbx["nodes"]), (&json("solid.glb")["clips"], &json("solid.glb")["nodes"]));
+    assert_eq!((fbx["frame_rate"].as_f64(), json("solid.glb")["facing"].as_str()), (Some(48.0), Some("+z")));
     // Motion without a mesh.
     let folder = tempfile::tempdir().unwrap();
     let alone = folder.path().join("nod.gltf");
@@ -367,7 +371,7 @@ fn damage_to_any_sample_is_said_in_one_line_that_names_a_file() {
 fn what_a_format_states_is_declared() {
     let space = |name: &str| nabiki_io::declared_space(&file(name)).unwrap();
     let (metres, y) = (Some("m".parse().unwrap()), Some(Axis::PlusY));
-    for name in ["solid.glb", "solid.gltf", "groom.usda"] {
+    for name in ["solid.glb", "solid.gltf", "solid.fbx", "groom.usda"] {
         assert_eq!((space(name).unit, space(name).up), (metres, y), "{name}");
     }
     assert_eq!((space("groom.abc").unit, space("groom.abc").up), (None, y));
@@ -443,6 +447,7 @@ fn the_parts_of_a_mesh_file_are_listed_the_largest_first() {
     let parts = [("one", 3), ("a", 2), ("b", 1)].map(|(name, faces)| (name.to_owned(), faces));
     assert_eq!(mesh::groups(&path).unwrap(), parts);
     assert_eq!(mesh::groups(&file("solid.glb")).unwrap(), [("solid".to_owned(), 8)]);
+    assert_eq!(mesh::groups(&file("solid.fbx")).unwrap(), [("solid".to_owned(), 8)]);
     assert_eq!(mesh::groups(&file("solid_text.ply")).unwrap(), []);
 }
 

@@ -9,12 +9,14 @@ use super::measure::{Box3, Guess, guess_unit};
 use crate::{
     declared::DeclaredSpace,
     error::Result,
+    fbx_file::{Outline, is_fbx, outline_of},
     gltf_file,
     input::{self, MOST_BINARY_BYTES},
     kind::extension,
     mesh::{self, place_and_weld},
     placement::Placement,
     screen::{OneLine, list},
+    short::Short,
     unit::Unit,
 };
 
@@ -46,13 +48,19 @@ pub struct MeshInfo {
     pub unit_cm: Option<f32>,
     /// The up axis, if the format defines it.
     pub up: Option<String>,
-    /// Animations of a .glb that may move a head.
+    /// The axis along which a character of the file looks, if the format defines it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub facing: Option<String>,
+    /// Frames per second, if the file declares them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame_rate: Option<f64>,
+    /// Animations of a .glb or .fbx that may move a head.
     pub clips: Vec<ClipInfo>,
     /// Names of the nodes that the animations may move.
     pub nodes: Vec<String>,
 }
 
-/// An animation of a .glb.
+/// An animation of a .glb or .fbx.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ClipInfo {
@@ -69,6 +77,9 @@ impl MeshInfo {
             let (mesh, unread) = mesh::read_with_losses(path, &[])?;
             Ok(Self { unread, ..Self::of(&mesh) })
         };
+        if is_fbx(path) {
+            return Self::of_fbx(path, of_meshes);
+        }
         if !matches!(extension(path).as_str(), "glb" | "gltf") {
             return of_meshes();
         }
@@ -80,8 +91,26 @@ impl MeshInfo {
         let clips: Vec<ClipInfo> = document.animations().map(|animation| clip(&animation)).collect();
         let names = document.nodes().filter_map(|node| node.name().map(str::to_owned));
         let DeclaredSpace { unit, up } = DeclaredSpace::GLTF;
-        let info = Self { guess: None, unit_cm: unit.map(|unit| unit.cm), up: up.map(|up| up.to_string()), ..info };
+        let facing = (!clips.is_empty()).then(|| "+z".to_owned());
+        let info =
+            Self { guess: None, unit_cm: unit.map(|unit| unit.cm), up: up.map(|up| up.to_string()), facing, ..info };
         Ok(Self { nodes: if clips.is_empty() { Vec::new() } else { names.collect() }, clips, ..info })
+    }
+
+    fn of_fbx(path: &Path, of_meshes: impl Fn() -> Result<Self>) -> Result<Self> {
+        let Outline { space: DeclaredSpace { unit, up }, rate, meshes, clips, nodes } = outline_of(path)?;
+        // As for a glTF.
+        let moves_alone = meshes == 0 && !clips.is_empty();
+        let info = if moves_alone { Self::of(&Mesh::default()) } else { of_meshes()? };
+        Ok(Self {
+            guess: None,
+            unit_cm: unit.map(|unit| unit.cm),
+            up: up.map(|up| up.to_string()),
+            frame_rate: rate,
+            nodes: if clips.is_empty() { Vec::new() } else { nodes },
+            clips: clips.into_iter().map(|(name, length)| ClipInfo { name, end: Some(length) }).collect(),
+            ..info
+        })
     }
 
     /// Summarises `mesh`.
@@ -109,6 +138,8 @@ impl MeshInfo {
             unread: Vec::new(),
             unit_cm: None,
             up: None,
+            facing: None,
+            frame_rate: None,
             clips: Vec::new(),
             nodes: Vec::new(),
         }
@@ -149,10 +180,20 @@ impl fmt::Display for MeshInfo {
             });
             write!(f, "\nnodes: {}", list(&self.nodes))?;
             write!(f, "\nclips: {}", list(&clips.collect::<Vec<_>>()))?;
-            write!(f, "\nas motion: facing +z; required in the scene: node, clip")?;
+            if let Some(rate) = self.frame_rate {
+                write!(f, "\nframe rate: {}", Short(rate as f32))?;
+            }
+            match &self.facing {
+                Some(facing) => write!(f, "\nas motion: facing {facing}; required in the scene: node, clip")?,
+                None => write!(
+                    f,
+                    "\nas motion, required in the scene: node, clip, facing (but not if the mesh is from this file)"
+                )?,
+            }
         }
         if let (Some(cm), Some(up)) = (self.unit_cm, &self.up) {
-            write!(f, "\nits format says: unit {}, up {up}; facing: unknown", Unit { cm })?;
+            let says = if self.frame_rate.is_some() { "the file" } else { "its format" };
+            write!(f, "\n{says} says: unit {}, up {up}; facing: unknown", Unit { cm })?;
         }
         match self.guess {
             Some(Guess { likely_unit: Some(unit), .. }) => {

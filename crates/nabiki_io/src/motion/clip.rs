@@ -204,21 +204,28 @@ pub(super) fn chain<'a>(document: &'a gltf::Document, name: &str) -> Result<Vec<
 }
 
 fn animation<'a>(document: &'a gltf::Document, clip: &str) -> Result<gltf::Animation<'a>> {
-    let names = || document.animations().filter_map(|a| a.name()).take(100).collect::<Vec<_>>().join(", ");
+    let mut all: Vec<gltf::Animation<'a>> = document.animations().collect();
+    let names: Vec<Option<&str>> =
+        document.as_json().animations.iter().map(|animation| animation.name.as_deref()).collect();
+    let chosen = choose_clip(&names, clip)?;
+    Ok(all.swap_remove(chosen))
+}
+
+/// Which of the animations with these names `clip` is; it may be empty if there is only one.
+pub(crate) fn choose_clip(names: &[Option<&str>], clip: &str) -> Result<usize> {
+    let known = || names.iter().copied().flatten().take(100).collect::<Vec<_>>().join(", ");
     if clip.is_empty() {
-        let mut all = document.animations();
-        match (all.next(), all.next()) {
-            (Some(only), None) => Ok(only),
-            (None, _) => Err(Error::new("has no animation")),
-            _ => Err(Error::new(format!("has several animations: give clip = one of {}", names()))),
-        }
-    } else {
-        let mut all = document.animations().filter(|a| a.name() == Some(clip));
-        match (all.next(), all.next()) {
-            (Some(only), None) => Ok(only),
-            (None, _) => Err(Error::new(format!("no clip \"{clip}\": clip can be {}", names()))),
-            _ => Err(Error::new(format!("clip \"{clip}\": several have that name; rename all but one in the file"))),
-        }
+        return match names.len() {
+            1 => Ok(0),
+            0 => Err(Error::new("has no animation")),
+            _ => Err(Error::new(format!("has several animations: give clip = one of {}", known()))),
+        };
+    }
+    let mut of_name = (0..names.len()).filter(|&n| names[n] == Some(clip));
+    match (of_name.next(), of_name.next()) {
+        (Some(only), None) => Ok(only),
+        (None, _) => Err(Error::new(format!("no clip \"{clip}\": clip can be {}", known()))),
+        _ => Err(Error::new(format!("clip \"{clip}\": several have that name; rename all but one in the file"))),
     }
 }
 
@@ -267,10 +274,10 @@ impl Curves {
 }
 
 /// Scales that differ by less than this part are one scale.
-const SAME_SCALE: f64 = 1e-3;
+pub(super) const SAME_SCALE: f64 = 1e-3;
 
 /// Position and rotation of the product of `matrices`, root first, and its scale.
-fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<(Sample, DVec3)> {
+pub(super) fn world(matrices: impl Iterator<Item = DMat4>, name: &str) -> Result<(Sample, DVec3)> {
     let product = matrices.fold(DMat4::IDENTITY, |product, m| product * m);
     let affine = DAffine3::from_mat4(product);
     let volume = affine.matrix3.determinant();

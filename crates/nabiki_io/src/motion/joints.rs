@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 
 /// Ancestors that a joint may have: each frame walks up to the root, so this bounds the time that a small file can take;
 /// a body has a dozen.
-const DEEPEST: usize = 1000;
+pub(crate) const DEEPEST: usize = 1000;
 
 /// Poses of joints that the frames of a motion may take in all: three hours of a chain of thirty.
 const MOST_POSES: usize = 1 << 23;

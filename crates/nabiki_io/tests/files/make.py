@@ -210,6 +210,64 @@ def meshes():
     (HERE / "solid.gltf").write_text(json.dumps(document, indent=1) + "\n")
 
 
+def fbx():
+    """ASCII of version 7.4. The solid is seen in the mirror, and mirrored back by its node."""
+    second = 46186158000
+
+    def array(name, values):
+        values = list(values)
+        return "%s: *%d { a: %s }" % (name, len(values), ",".join("%.17g" % value for value in values))
+
+    def model(number, name, kind, *properties):
+        rows = ['P: "%s", "%s", "", "A",%g,%g,%g' % (key, key, *value) for key, value in properties]
+        return ['Model: %d, "Model::%s", "%s" {' % (number, name, kind), "Version: 232", "Properties70: {", *rows, "}", "}"]
+
+    def curve(number, values):
+        # A line from key to key.
+        keys = [
+            array("KeyTime", (round(time * second) for time, _, _ in SAMPLES)), array("KeyValueFloat", values),
+            "KeyAttrFlags: *1 { a: 4 }", "KeyAttrDataFloat: *4 { a: 0,0,0,0 }",
+            "KeyAttrRefCount: *1 { a: %d }" % len(SAMPLES),
+        ]
+        return ['AnimationCurve: %d, "AnimCurve::", "" {' % number, "Default: 0", "KeyVer: 4008", *keys, "}"]
+
+    def curves(number, name, value):
+        rows = ['P: "d|%s", "Number", "", "A",%g' % pair for pair in zip("XYZ", value)]
+        return ['AnimationCurveNode: %d, "AnimCurveNode::%s", "" {' % (number, name), "Properties70: {", *rows, "}", "}"]
+
+    settings = [("UpAxis", 1), ("UpAxisSign", 1), ("FrontAxis", 2), ("FrontAxisSign", 1), ("CoordAxis", 0), ("CoordAxisSign", 1)]
+    corners = [v for face in FACES for v in (face[0], face[2], face[1])]
+    text(
+        "solid.fbx",
+        "; FBX 7.4.0 project file",
+        "FBXHeaderExtension: {", "FBXHeaderVersion: 1003", "FBXVersion: 7400", "}",
+        "GlobalSettings: {", "Version: 1000", "Properties70: {",
+        *('P: "%s", "int", "Integer", "",%d' % pair for pair in settings),
+        'P: "UnitScaleFactor", "double", "Number", "",100', 'P: "TimeMode", "enum", "", "",5', "}", "}",
+        "Objects: {",
+        'Geometry: 1, "Geometry::", "Mesh" {',
+        array("Vertices", flat((-x, y, z) for x, y, z in CORNERS)),
+        array("PolygonVertexIndex", (-v - 1 if i % 3 == 2 else v for i, v in enumerate(corners))),
+        "LayerElementUV: 0 {", "Version: 101", 'Name: "map"', 'MappingInformationType: "ByPolygonVertex"',
+        'ReferenceInformationType: "IndexToDirect"', array("UV", flat(UVS)), array("UVIndex", corners), "}",
+        "Layer: 0 {", "Version: 100", "LayerElement: {", 'Type: "LayerElementUV"', "TypedIndex: 0", "}", "}",
+        "}",
+        *model(2, "solid", "Mesh", ("Lcl Scaling", (-1, 1, 1))),
+        *model(3, "Hips", "Null", ("Lcl Translation", (0, 1, 0))),
+        *model(4, "Head", "Null", ("Lcl Translation", (0, NECK, 0))),
+        'AnimationStack: 5, "AnimStack::nod", "" {', "Properties70: {",
+        'P: "LocalStart", "KTime", "Time", "",0', 'P: "LocalStop", "KTime", "Time", "",%d' % (second // 2), "}", "}",
+        'AnimationLayer: 6, "AnimLayer::base", "" {', "}",
+        *curves(7, "T", (0, 1, 0)), *curve(8, (hips[2] for _, hips, _ in SAMPLES)),
+        *curves(9, "R", (0, 0, 0)), *curve(10, (angle for _, _, angle in SAMPLES)),
+        "}",
+        "Connections: {",
+        'C: "OO",1,2', 'C: "OO",2,0', 'C: "OO",3,0', 'C: "OO",4,3', 'C: "OO",6,5', 'C: "OO",7,6', 'C: "OO",9,6',
+        'C: "OP",7,3, "Lcl Translation"', 'C: "OP",8,7, "d|Z"', 'C: "OP",9,4, "Lcl Rotation"', 'C: "OP",10,9, "d|Y"',
+        "}",
+    )
+
+
 def motion():
     text(
         "nod.bvh",
@@ -291,5 +349,6 @@ def cache():
 
 hair()
 meshes()
+fbx()
 motion()
 cache()
