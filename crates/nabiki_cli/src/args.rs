@@ -122,7 +122,7 @@ pub struct New {
     /// The scene to write (TOML)
     pub scene: PathBuf,
 
-    /// Mesh of the head: .obj, .glb, .gltf, .ply, .tfxmesh, .usd, .usda, .usdc or .abc (default: the built-in bust)
+    /// Mesh of the head: .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, .usd, .usda, .usdc or .abc (default: the built-in bust)
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 

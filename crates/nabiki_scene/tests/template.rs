@@ -242,7 +242,7 @@ fn what_a_format_states_is_not_guessed() {
     let scene = folder.path().join("new.toml");
     // An octahedron of half a metre, which has no skull.
     let files = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../nabiki_io/tests/files"));
-    for name in ["solid.glb", "solid.gltf"] {
+    for name in ["solid.glb", "solid.gltf", "solid.fbx"] {
         let new = template(&scene, Some(&files.join(name)), &[], None).unwrap();
         assert!(!new.guesses.iter().any(|said| said.contains("head.unit") || said.contains("head.up")), "{new:?}");
         assert!(!new.text.contains("\nunit =") && !new.text.contains("\nup ="), "{}", new.text);

@@ -191,7 +191,7 @@ impl Role {
             "bvh" | "amc" | "tof" | "csv" => vec![Self::Motion],
             "ply" | "tfxmesh" => vec![Self::Head, Self::Body],
             "obj" => vec![Self::Head, Self::Hair, Self::Body],
-            "glb" | "gltf" => vec![Self::Head, Self::Motion, Self::Body],
+            "glb" | "gltf" | "fbx" => vec![Self::Head, Self::Motion, Self::Body],
             "usd" | "usda" | "usdc" | "abc" => vec![Self::Hair, Self::Head, Self::Motion, Self::Body],
             _ => Vec::new(),
         }

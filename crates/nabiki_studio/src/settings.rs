@@ -218,10 +218,10 @@ pub enum Kind {
 /// Files of hair.
 pub const HAIR_FILES: &[&str] = &["hair", "tfx", "obj", "usda", "usdc", "usd", "abc"];
 /// Files of surfaces.
-pub const MESH_FILES: &[&str] = &["obj", "glb", "gltf", "ply", "tfxmesh", "usda", "usdc", "usd", "abc"];
+pub const MESH_FILES: &[&str] = &["obj", "glb", "gltf", "fbx", "ply", "tfxmesh", "usda", "usdc", "usd", "abc"];
 /// Files of motion.
 pub const MOTION_FILES: &[&str] =
-    &["bvh", "amc", "tof", "glb", "gltf", "csv", "usda", "usdc", "usd", "abc", "pc2", "mdd"];
+    &["bvh", "amc", "tof", "glb", "gltf", "fbx", "csv", "usda", "usdc", "usd", "abc", "pc2", "mdd"];
 /// Files of shapes that hair is led to.
 pub const AIM_FILES: &[&str] = &["usda", "usdc", "usd", "abc", "nabiki", "hair", "tfx", "obj"];
 

@@ -102,7 +102,7 @@ impl WayInputs {
 
 /// Whether files of this kind hold meshes and their motion in one space.
 pub(crate) fn holds_scenes(file: &Path) -> bool {
-    exchange::is_usd(file) || exchange::is_alembic(file) || mesh::is_gltf(file)
+    exchange::is_usd(file) || exchange::is_alembic(file) || mesh::is_gltf(file) || mesh::is_fbx(file)
 }
 
 impl WayInputs {

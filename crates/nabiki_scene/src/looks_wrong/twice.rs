@@ -89,7 +89,7 @@ fn twice(built: &BuiltScene, moved: &Moved<'_>) -> Option<Advice> {
     }
     let off = first.position_cm.distance(placement.origin_in_world().as_vec3());
     let turned = first.rotation.angle_between(Quat::IDENTITY);
-    let carries = if mesh::is_gltf(&file) { clip_carries } else { carries_mesh };
+    let carries = if mesh::is_gltf(&file) || mesh::is_fbx(&file) { clip_carries } else { carries_mesh };
     if off < NEAR && turned < TURNED || !carries(&file, &motion.node, groups).unwrap_or(false) {
         return None;
     }

@@ -32,7 +32,7 @@ settings! {
 settings! {
     /// An object besides the head that hair keeps out of in the free form.
     pub struct BodySettings where can_be_loaded {
-        /// The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required without `capsule`.
+        /// The mesh: a .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, USD layer or Alembic archive. Required without `capsule`.
         pub mesh: PathBuf = PathBuf::new() => "Mesh";
         /// A capsule or ball instead of a mesh: an arm, a shoulder, a finger. It needs no file.
         pub capsule: Option<CapsuleSettings> = None => "Capsule", open "the mesh";

@@ -40,7 +40,7 @@ pub enum HeadSource {
 settings! {
     /// A head from a file.
     pub struct ImportedHead in "head" where is_placed {
-        /// The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive.
+        /// The mesh: a .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, USD layer or Alembic archive.
         pub mesh: PathBuf = PathBuf::new() => "Mesh", must "\"head.obj\"";
         /// Groups, objects or nodes of the file to use. Uses all if empty.
         pub groups: Vec<String> = Vec::new() => "Groups";

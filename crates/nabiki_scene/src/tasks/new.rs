@@ -108,7 +108,7 @@ struct Mover {
 fn mover(built: &BuiltScene) -> Result<Option<Mover>> {
     let HeadSource::Imported(head) = &built.scene.head.source else { return Ok(None) };
     let file = built.scene.resolve(&head.mesh);
-    if mesh::is_gltf(&file) {
+    if mesh::is_gltf(&file) || mesh::is_fbx(&file) {
         return mover_of_clip(built, head, &file);
     }
     let Some(node) = exchange::mover_of_mesh(&file, &head.groups)? else { return Ok(None) };
@@ -122,7 +122,7 @@ fn mover(built: &BuiltScene) -> Result<Option<Mover>> {
     Ok(Some(Mover { motion: motion_of(built, head, &node, &unit), how }))
 }
 
-/// The same for a head in a glTF file: its skull may be carried by a joint of its skin.
+/// The same for a head in a glTF or FBX file: its skull may be carried by a joint of its skin.
 fn mover_of_clip(built: &BuiltScene, head: &ImportedHead, file: &Path) -> Result<Option<Mover>> {
     let place = built.model.placement.head_from_file();
     let is_skull = |p: Vec3| built.model.head.ellipsoid.value(place.transform_point3(p)) <= SKULL;

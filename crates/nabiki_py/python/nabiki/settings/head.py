@@ -50,7 +50,7 @@ class HeadSettings(Table):
 
     @property
     def mesh(self) -> str:
-        """The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Path; must be given."""
+        """The mesh: a .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, USD layer or Alembic archive. Path; must be given."""
         value: str = self._get('mesh')
         return value
 
@@ -121,9 +121,9 @@ class MotionSource(Table):
 
     @property
     def file(self) -> str:
-        """The motion: a .bvh, .amc, .tof, .glb, .gltf, .abc, .usd, .usda or .usdc file, a .csv, or a .pc2 or .mdd with
-        the mesh's points. A .csv has the columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw. Path; default:
-        none.
+        """The motion: a .bvh, .amc, .tof, .glb, .gltf, .fbx, .abc, .usd, .usda or .usdc file, a .csv, or a .pc2 or .mdd
+        with the mesh's points. A .csv has the columns t_s, px_m, py_m, pz_m (or _cm, _mm), qx, qy, qz, qw. Path;
+        default: none.
         """
         value: str = self._get('file')
         return value
@@ -156,7 +156,7 @@ class MotionSource(Table):
 
     @property
     def clip(self) -> str:
-        """Name of the animation in a .glb or .gltf. Needed only if there are several. Text; default: none."""
+        """Name of the animation in a .glb, .gltf or .fbx. Needed only if there are several. Text; default: none."""
         value: str = self._get('clip')
         return value
 
@@ -167,8 +167,8 @@ class MotionSource(Table):
     @property
     def unit_cm(self) -> float | None:
         """Length of the file's unit. Required for .bvh, .tof and .abc. A .glb or .gltf is in metres unless you set this,
-        an .amc in inches times the `length` of its .asf. A .csv or USD file names its own unit. Number above 0 (cm);
-        default: what the file says.
+        an .amc in inches times the `length` of its .asf. A .csv, USD or FBX file names its own unit. Number above 0
+        (cm); default: what the file says.
         """
         value: float | None = self._get('unit_cm')
         return value
@@ -179,8 +179,8 @@ class MotionSource(Table):
 
     @property
     def up(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
-        """Up axis of the file's world. Required for .bvh, .amc, .tof and .csv. It is +y in .glb, .gltf and .abc; USD
-        files name their own. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
+        """Up axis of the file's world. Required for .bvh, .amc, .tof and .csv. It is +y in .glb, .gltf and .abc; USD and
+        FBX files name their own. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('up')
         return value
@@ -192,9 +192,9 @@ class MotionSource(Table):
     @property
     def facing(self) -> Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None:
         """Axis of the file's world along which the character looks while the joint is unturned. Not required for .glb
-        and .gltf, where it is +z in the still pose, nor for a USD layer or Alembic archive that the mesh is from too.
-        A bone of an .amc is unturned in the rest pose of the .asf, a joint of a .tof when its axes are those of the
-        world. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
+        and .gltf, where it is +z in the still pose, nor for a USD layer, Alembic archive or FBX that the mesh is from
+        too. A bone of an .amc is unturned in the rest pose of the .asf, a joint of a .tof when its axes are those of
+        the world. "+x", "-x", "+y", "-y", "+z" or "-z"; default: what the file says.
         """
         value: Literal["+x", "-x", "+y", "-y", "+z", "-z"] | None = self._get('facing')
         return value
@@ -217,8 +217,8 @@ class MotionSource(Table):
 
     @property
     def skip(self) -> int:
-        """Number of samples to drop at the start, for example a T-pose. Not for .glb and .gltf. Whole number (samples);
-        default: 0.
+        """Number of samples to drop at the start, for example a T-pose. Not for .glb, .gltf and .fbx. Whole number
+        (samples); default: 0.
         """
         value: int = self._get('skip')
         return value
@@ -229,8 +229,8 @@ class MotionSource(Table):
 
     @property
     def positions(self) -> Literal["linear", "cubic"]:
-        """How to interpolate positions between two samples. Rotations turn at a constant rate (slerp). Not for .glb and
-        .gltf, whose channels define it. "linear" or "cubic"; default: "cubic".
+        """How to interpolate positions between two samples. Rotations turn at a constant rate (slerp). Not for .glb,
+        .gltf and .fbx, whose curves define it. "linear" or "cubic"; default: "cubic".
         """
         value: Literal["linear", "cubic"] = self._get('positions')
         return value
@@ -277,9 +277,9 @@ class MotionSource(Table):
     @property
     def bind_at_start(self) -> bool:
         """Whether the mesh is already placed as the first frame has it, as in a file that contains both mesh and motion.
-        The motion then carries the mesh on from there. With a joint of the same USD layer, the mesh is placed as the
-        skeleton binds it. Hair that grows on the head goes along. If the mesh bends in that file, so does its skin
-        here. True or false; default: false.
+        The motion then carries the mesh on from there. With a joint of the same USD layer or FBX, the mesh is placed
+        as the skeleton binds it. Hair that grows on the head goes along. If the mesh bends in that file, so does its
+        skin here. True or false; default: false.
         """
         value: bool = self._get('bind_at_start')
         return value
@@ -296,8 +296,8 @@ class BodySettings(Table):
 
     @property
     def mesh(self) -> str:
-        """The mesh: a .obj, .glb, .gltf, .ply, .tfxmesh, USD layer or Alembic archive. Required without `capsule`. Path;
-        default: none.
+        """The mesh: a .obj, .glb, .gltf, .fbx, .ply, .tfxmesh, USD layer or Alembic archive. Required without `capsule`.
+        Path; default: none.
         """
         value: str = self._get('mesh')
         return value
