@@ -244,6 +244,16 @@ def skins(nabiki, python):
     run(python, HERE / "skins.py", "compare", folder)
 
 
+def fbx(nabiki, bpy):
+    """Roots ride on skin that bends, where Blender has it that wrote the FBX."""
+    folder = WORK / "fbx"
+    run(bpy, HERE / "fbx.py", "write", folder, stdout=subprocess.DEVNULL)
+    for scene in sorted(folder.glob("*.toml")):
+        export = ["--export", scene.with_suffix(".pc2")]
+        run(nabiki, "simulate", scene, "-o", folder / "skin.nabiki", *export, "--quiet")
+    run(bpy, HERE / "fbx.py", "compare", folder)
+
+
 def game(nabiki, python, bpy):
     """Point caches and chains of joints, in Blender and in three.js."""
     folder = WORK / "game"
@@ -320,6 +330,7 @@ def main():
     bpy, why = blender(arguments.bpy or os.environ.get("NABIKI_BPY_PYTHON"))
     game(nabiki, python, bpy)
     if bpy:
+        fbx(nabiki, bpy)
         run(bpy, HERE / "blender.py", samples, nabiki)
     else:
         print(f"SKIPPED: Blender: {why}")
