@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::layout::{self, POSITION, Quantised};
 
 /// Stretches of an axis: from the first number on (cm), the second is the step (cm). The last ends the axis.
-type Axis = &'static [(f32, f32)];
+pub(crate) type Axis = &'static [(f32, f32)];
 const ALONG_X: Axis = &[(-14.0, 0.4), (-4.6, 0.12), (0.4, 0.3), (4.5, 0.2), (6.9, 0.11), (10.5, 0.2), (12.0, 0.0)];
 const ALONG_Y: Axis = &[
     (-33.0, 0.5),
@@ -39,7 +39,7 @@ const BLOCK: usize = 8;
 /// The field may change this many times faster than the distance.
 const STEEPNESS: f32 = 2.0;
 
-fn planes(axis: Axis) -> Vec<f32> {
+pub(crate) fn planes(axis: Axis) -> Vec<f32> {
     let mut planes = Vec::new();
     for stretch in axis.windows(2) {
         let length = stretch[1].0 - stretch[0].0;
@@ -140,7 +140,7 @@ fn quantum(cm: f32) -> i32 {
 }
 
 /// The mean of the places where the edges of a cell, from its eight corners with the field there, pass the skin.
-fn middle_of_crossings(corners: &[(Vec3, f32); 8]) -> Vec3 {
+pub(crate) fn middle_of_crossings(corners: &[(Vec3, f32); 8]) -> Vec3 {
     let (mut sum, mut count) = (Vec3::ZERO, 0.0);
     for from in 0..8 {
         for to in [1, 2, 4].map(|axis| from | axis).into_iter().filter(|&to| to != from) {
@@ -155,7 +155,7 @@ fn middle_of_crossings(corners: &[(Vec3, f32); 8]) -> Vec3 {
 }
 
 /// The field at every node, x fastest; where a block is out of the skin's reach, its middle stands for all of it.
-fn sample(field: &(impl Fn(Vec3) -> f32 + Sync), xs: &[f32], ys: &[f32], zs: &[f32]) -> Vec<f32> {
+pub(crate) fn sample(field: &(impl Fn(Vec3) -> f32 + Sync), xs: &[f32], ys: &[f32], zs: &[f32]) -> Vec<f32> {
     let (nx, ny) = (xs.len(), ys.len());
     let mut samples = vec![0.0_f32; nx * ny * zs.len()];
     samples.par_chunks_mut(nx * ny * BLOCK).enumerate().for_each(|(slab, samples)| {
@@ -182,7 +182,7 @@ fn sample(field: &(impl Fn(Vec3) -> f32 + Sync), xs: &[f32], ys: &[f32], zs: &[f
     samples
 }
 
-fn onto_skin(field: &impl Fn(Vec3) -> f32, start: Vec3) -> Vec3 {
+pub(crate) fn onto_skin(field: &impl Fn(Vec3) -> f32, start: Vec3) -> Vec3 {
     let mut p = start;
     for _ in 0..4 {
         let slope = gradient(field, p);

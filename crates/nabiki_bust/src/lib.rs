@@ -6,6 +6,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod characters;
 mod ear;
 mod eyes;
 mod face;
@@ -42,8 +43,17 @@ pub fn bake() -> Vec<u8> {
 /// The bust as one function of the place: negative inside, zero on the skin, and near it about the distance (cm).
 /// The same on both sides of z = 0, to the bit.
 pub fn field(p: Vec3) -> f32 {
-    // Rounding |z| off at the middle keeps what both halves share smooth there.
-    let p = Vec3::new(p.x, p.y, (p.z * p.z + 0.01).sqrt());
+    let p = one_side(p);
+    torso::cut_off(p, uncut(p))
+}
+
+/// The place on her right, |z| rounded off at the middle, which keeps what both halves share smooth there.
+fn one_side(p: Vec3) -> Vec3 {
+    Vec3::new(p.x, p.y, (p.z * p.z + 0.01).sqrt())
+}
+
+/// The bust before it is cut off below, on [`one_side`].
+fn uncut(p: Vec3) -> f32 {
     let mut skin = skull::add(p);
     skin = face::add(p, skin);
     skin = neck::add(p, skin);
@@ -51,6 +61,5 @@ pub fn field(p: Vec3) -> f32 {
     skin = eyes::add(p, skin);
     skin = nose::add(p, skin);
     skin = mouth::add(p, skin);
-    skin = ear::add(p, skin);
-    torso::cut_off(p, skin)
+    ear::add(p, skin)
 }
