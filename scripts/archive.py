@@ -25,7 +25,7 @@ sys.dont_write_bytecode = True
 from version import ROOT, version
 
 PAPERS = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"]
-SCENES = [".toml", ".obj", ".csv", ".md"]
+SCENES = [".toml", ".obj", ".csv", ".glb", ".hair", ".md"]
 
 # One date for all files: the earliest that a .zip knows.
 DATE = (1980, 1, 1, 0, 0, 0)
@@ -144,7 +144,8 @@ def check():
             assert b"scenes/gust.toml" in (inside / "START.txt").read_bytes()
             # Windows knows no rights.
             assert sys.platform == "win32" or (inside / program.name).stat().st_mode & 0o777 == 0o755
-            for expected in [*PAPERS, "scenes/gust.toml", "scenes/paper/gust.toml", "scenes/motion/hand.obj"]:
+            files = ["gust.toml", "paper/gust.toml", "motion/hand.obj", "characters/walker.glb", "characters/fur.hair"]
+            for expected in PAPERS + [f"scenes/{file}" for file in files]:
                 assert (inside / expected).read_bytes() == (ROOT / expected).read_bytes(), expected
             print(f"{archive.name}: {sum(path.is_file() for path in inside.rglob('*'))} files, as they should be")
 

@@ -52,7 +52,7 @@ static JOINTS: [Joint; 20] = [
 
 /// Its origin above the ground (cm).
 const HEIGHT: Vec3 = Vec3::new(0.0, 36.5, 0.0);
-const VERTICES: usize = 4400;
+const VERTICES: usize = 4300;
 
 const ALONG_X: Axis = &[(-76.0, 0.8), (33.0, 0.45), (58.0, 0.0)];
 const ALONG_Y: Axis = &[(-39.0, 0.7), (14.0, 0.45), (37.0, 0.0)];

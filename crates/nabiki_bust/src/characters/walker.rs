@@ -33,7 +33,7 @@ static JOINTS: [Joint; 9] = [
 
 /// Her head's origin above the ground (cm).
 const HEIGHT: f32 = 158.0;
-const VERTICES: usize = 7700;
+const VERTICES: usize = 8000;
 const VERTICES_OF_TOP: usize = 2200;
 
 const ALONG_X: Axis = &[(-18.0, 0.6), (-5.0, 0.3), (0.4, 0.4), (4.5, 0.3), (6.7, 0.16), (11.0, 0.3), (13.0, 0.0)];

@@ -76,6 +76,8 @@ fn length(p: Vec3) -> f32 {
     // The cheeks have a ruff, the muzzle hardly any.
     let face = 5.6 - 4.5 * smooth(p.x, 39.0, 47.0);
     length += (face - length) * of_head(p);
+    // Between the legs there is no room for more.
+    length *= 1.0 - 0.6 * smooth(-p.z.abs(), -6.6, -5.0) * smooth(-p.y, 7.0, 12.0) * (1.0 - of_tail(p));
     length += (1.8 - length) * smooth(p.y, 26.5, 28.5);
     length
 }

@@ -10,7 +10,7 @@ const LAST: usize = 132;
 /// Frames in which the head shakes; the wave goes through the body from there.
 const SHAKE: [f64; 2] = [66.0, 96.0];
 /// Shakes per second.
-const SHAKES: f64 = 2.6;
+const SHAKES: f64 = 2.2;
 /// Frames by which the wave is later at the tip of the tail than at the nose.
 const WAVE: f64 = 12.0;
 
@@ -35,15 +35,15 @@ fn pose(frame: f64) -> Vec<Move> {
         |late: f64| keyed(&[(8.0 + late, 0.0), (26.0 + late, 1.0), (36.0 + late, 1.0), (54.0 + late, 0.0)], frame);
     let bow = keyed(&[(48.0, 0.0), (66.0, 1.0), (88.0, 1.0), (112.0, 0.0)], frame);
 
-    moves[0] = Move::degrees(-2.0 * bow, 3.0 * shake(frame, 0.7), 2.5 * look(8.0)).by([0.0, -1.2 * bow, 0.0]);
-    moves[LOIN] = Move::degrees(3.0 * bow + 0.5 * breath, 4.5 * shake(frame, 0.5), -4.0 * look(6.0));
-    moves[CHEST] = Move::degrees(-4.0 * bow - 0.9 * breath, 6.0 * shake(frame, 0.35), -6.0 * look(4.0));
-    moves[NECK] = Move::degrees(-9.0 * bow + 2.0 * look(3.0), 7.0 * shake(frame, 0.2), -16.0 * look(3.0));
-    moves[NAPE] = Move::degrees(-7.0 * bow + 0.6 * breath, 9.0 * shake(frame, 0.1), -18.0 * look(1.5));
+    moves[0] = Move::degrees(-2.0 * bow, 1.5 * shake(frame, 0.7), 1.5 * look(8.0)).by([0.0, -1.2 * bow, 0.0]);
+    moves[LOIN] = Move::degrees(3.0 * bow + 0.5 * breath, 2.0 * shake(frame, 0.5), -3.0 * look(6.0));
+    moves[CHEST] = Move::degrees(-4.0 * bow - 0.9 * breath, 2.5 * shake(frame, 0.35), -4.0 * look(4.0));
+    moves[NECK] = Move::degrees(-6.0 * bow + 2.0 * look(3.0), 4.0 * shake(frame, 0.2), -8.0 * look(3.0));
+    moves[NAPE] = Move::degrees(-5.0 * bow + 0.6 * breath, 6.0 * shake(frame, 0.1), -10.0 * look(1.5));
     moves[HEAD] =
-        Move::degrees(-4.0 * bow - 3.0 * look(0.0), 13.0 * shake(frame, 0.0) - 6.0 * look(0.0), -22.0 * look(0.0));
+        Move::degrees(-3.0 * bow - 3.0 * look(0.0), 10.0 * shake(frame, 0.0) - 4.0 * look(0.0), -16.0 * look(0.0));
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
-        moves[EAR[side]] = Move::degrees(10.0 * bow, 12.0 * shake(frame, 0.05), -sign * 8.0 * look(2.0));
+        moves[EAR[side]] = Move::degrees(10.0 * bow, 8.0 * shake(frame, 0.05), -sign * 8.0 * look(2.0));
     }
     // The tail sweeps as a wave that runs to its tip.
     for (n, &joint) in TAIL.iter().enumerate() {
@@ -57,7 +57,7 @@ fn pose(frame: f64) -> Vec<Move> {
     // The legs give way as the body turns and bows, and the paws stay about where they are.
     for (leg, &[upper, lower]) in LEG.iter().enumerate() {
         let fore = leg < 2;
-        let roll = if fore { -5.5 * shake(frame, 0.35) } else { -3.0 * shake(frame, 0.7) };
+        let roll = if fore { -2.5 * shake(frame, 0.4) } else { -1.5 * shake(frame, 0.7) };
         let bend = if fore { 3.0 * bow } else { 4.0 * bow };
         moves[upper] = Move::degrees(if fore { 2.0 * bow } else { 2.0 + bend } * bow, roll, 0.0);
         moves[lower] = Move::degrees(if fore { 1.0 } else { -4.0 } * bow, 0.0, 0.0);
