@@ -109,10 +109,9 @@ fn shares(p: Vec3) -> Shares {
         let off_rump = smooth(p.y, -8.0, -2.0);
         shares = shares.over(joint, smooth(-p.x, -at - half, -at + half) * off_rump);
     }
-    for (legs, points, sides) in [(0, &body::FORE, 0.0), (2, &body::HIND, 0.0)] {
+    for (legs, points) in [(0, &body::FORE), (2, &body::HIND)] {
         let [upper, lower] = LEG[legs + side];
-        let upper_share =
-            smooth(body::trunk(right) - body::leg(right, points) + sides, -3.0, 5.0) * smooth(-p.y, 2.0, 11.0);
+        let upper_share = smooth(body::trunk(right) - body::leg(right, points), -3.0, 5.0) * smooth(-p.y, 2.0, 11.0);
         let (knee, half) = (points[1].0.y, 4.0);
         shares = shares.over(upper, upper_share).over(lower, upper_share * smooth(-p.y, -knee - half, -knee + half));
     }

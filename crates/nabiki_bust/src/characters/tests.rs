@@ -8,7 +8,7 @@ use super::net::Skin;
 use super::rig::{Joint, Move, Shares};
 use super::{creature, talker, walker};
 
-/// A box with a hole through it, as a field.
+/// A torus, as a field.
 fn ring(p: Vec3) -> f32 {
     glam::Vec2::new(glam::Vec2::new(p.x, p.y).length() - 4.0, p.z).length() - 1.5
 }
