@@ -59,7 +59,8 @@ pub fn template(scene: &Path, head: Option<&Path>, groups: &[String], hair: Opti
     let (of_head, head_text) = match head {
         None => (
             None,
-            "[head]\nmesh = \"builtin:bust\"      # or a .obj, .glb, .fbx, .ply, USD layer or Alembic archive\n".to_owned(),
+            "[head]\nmesh = \"builtin:bust\"      # or a .obj, .glb, .fbx, .ply, USD layer or Alembic archive\n"
+                .to_owned(),
         ),
         Some(file) => {
             let found = look_at_head(file, groups, strands.as_ref())?;

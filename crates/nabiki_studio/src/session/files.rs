@@ -53,6 +53,7 @@ impl Session {
         // The hair of another scene is not this one's, nor is what is still on its way.
         (self.take, self.swings, self.kept) = (None, None, None);
         self.opened += 1;
+        self.tools.region = None;
         self.play.set_playing(false);
         self.play.go(0);
         self.move_again(true);

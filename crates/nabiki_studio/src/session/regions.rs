@@ -89,7 +89,10 @@ fn comb(scene: &mut Scene, take: &Take, frame: u32, strands: &[(usize, Vec<Vec3>
         let known = Some(&*region).filter(|region| region.near.is_some() || !region.painted.is_empty());
         let before = Weights::new(take.strands(), take.at_hand(), known);
         let mut covered = vec![0.0; before.of().len()];
-        strands.iter().for_each(|&(strand, _)| covered[strand] = 1.0);
+        // The motion may have come anew since, with other strands.
+        for (strand, _) in strands {
+            covered.get_mut(*strand).into_iter().for_each(|covered| *covered = 1.0);
+        }
         before.stroked(Stroke::Add, &covered).paint(region);
     }
 }

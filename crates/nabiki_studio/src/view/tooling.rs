@@ -36,6 +36,8 @@ pub struct Painting {
 pub struct Combing {
     comb: Comb,
     frame: u32,
+    /// How many strands were at hand.
+    among: usize,
     from: Vec2,
     /// The strands as they lie now.
     strands: Vec<(usize, Vec<Vec3>)>,
@@ -89,11 +91,17 @@ impl View {
                 input.modifiers,
             )
         });
-        if escape && self.hand.is_busy() {
+        let take = shown.take;
+        // A stroke is of the strands and the frame that it began on.
+        let is_over = match &self.hand {
+            Hand::Paint(painting) => painting.before.of().len() != take.at_hand(),
+            Hand::Comb(combing) => combing.frame != shown.frame || combing.among != take.at_hand(),
+            _ => false,
+        };
+        if is_over || escape && self.hand.is_busy() {
             self.hand = Hand::Idle;
             return touches;
         }
-        let take = shown.take;
         let in_head = view.in_head(&take.pose(shown.frame));
         let skins = Skins::of(take, shown.frame);
         let seen = Seen {
@@ -154,7 +162,13 @@ impl View {
             if shown.frame == 0 {
                 return Err("Frame 0 is the hair at rest: go to a later frame to comb it.".to_owned());
             }
-            return Ok(Hand::Comb(Box::new(Combing { comb, frame: shown.frame, from: pixel, strands: Vec::new() })));
+            return Ok(Hand::Comb(Box::new(Combing {
+                comb,
+                frame: shown.frame,
+                among: seen.among,
+                from: pixel,
+                strands: Vec::new(),
+            })));
         }
         let lasso = shown.tools.stroke == Stroke::Lasso;
         if !lasso && seen.under([pixel; 2], radius).iter().all(|&amount| amount == 0.0) {
