@@ -5,6 +5,9 @@ use glam::{DAffine3, DVec3};
 /// Ticks of FBX in a second.
 pub const SECOND: f64 = 46_186_158_000.0;
 
+/// A vertex, and how a blend shape moves it.
+pub type Moved = (usize, [f64; 3]);
+
 /// A file that is being written.
 pub struct Text {
     settings: String,
@@ -127,13 +130,7 @@ impl Text {
 
     /// A blend shape of a mesh with one channel at `percent`: the weights (per cent) at which it reaches each of its shapes, which
     /// move vertices. It has this number, its channel the next, and its shapes those after that.
-    pub fn shapes(
-        &mut self,
-        number: u32,
-        mesh: u32,
-        percent: f64,
-        shapes: &[(f64, &[(usize, [f64; 3])])],
-    ) -> &mut Self {
+    pub fn shapes(&mut self, number: u32, mesh: u32, percent: f64, shapes: &[(f64, &[Moved])]) -> &mut Self {
         self.object("Deformer", number, "Deformer::", "BlendShape", "Version: 100\n").below(number, mesh);
         let inside = format!("Version: 100\nDeformPercent: {percent}\n")
             + &array("FullWeights", shapes.iter().map(|&(full, _)| full));
