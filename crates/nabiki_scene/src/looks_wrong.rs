@@ -176,6 +176,9 @@ fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
             Some(_) if region.has_members() => {
                 "none is near it and also in its groups, attribute and map; leave out one of these".to_owned()
             }
+            Some(_) if !region.painted.is_empty() => {
+                "none is near it and also painted; leave out one of these".to_owned()
+            }
             Some(_) => {
                 let far = Short(region.within + region.soft);
                 format!("no root is within {far} cm of it; correct near, or raise within")
@@ -187,6 +190,9 @@ fn empty_regions(built: &BuiltScene) -> impl Iterator<Item = Advice> {
                 "no root is near a painted point with a weight; paint it anew, or raise within".to_owned()
             }
             None if region.map.is_some() => "its map is black at all roots; correct it".to_owned(),
+            None if !region.values.is_empty() => {
+                "none has one of its values of the attribute, within its groups; correct these".to_owned()
+            }
             None if region.groups.is_empty() => "its attribute is 0 on all of them; correct it".to_owned(),
             None if region.attribute.is_none() => "none is in its groups; correct these".to_owned(),
             None => "its attribute is 0 on all of its groups; correct one of them".to_owned(),

@@ -99,6 +99,8 @@ pub struct Session {
     chosen_before: Option<Vec<usize>>,
     clip: Clip,
     tools: Tools,
+    /// The name of the region that is painted, and how many there were.
+    painted: (String, usize),
     /// The setting that is pointed out.
     revealed: Option<Revealed>,
     dialog: Option<Dialog>,
@@ -167,6 +169,7 @@ impl Session {
             chosen_before: None,
             clip: Clip::default(),
             tools: Tools::default(),
+            painted: Default::default(),
             revealed: None,
             dialog: None,
             asked_at: None,
@@ -460,8 +463,7 @@ impl Session {
     fn choose_what_is_there(&mut self) {
         let intervals = self.document.as_ref().map_or(0, |document| document.scene().field.force.len());
         self.chosen.retain(|&j| j < intervals);
-        let regions = self.document.as_ref().map_or(0, |document| document.scene().free.regions.len());
-        self.tools.region = self.tools.region.filter(|&i| i < regions);
+        self.follow_region();
     }
 
     fn move_if_changed(&mut self) {

@@ -184,6 +184,7 @@ impl View {
             self.nails.retain(|nail| nail.fits(shown.take.strands()) && nail.frame <= shown.take.frames());
         }
         let before = touches.len();
+        self.leave_other_stroke(shown);
         if shown.tools.tool == Tool::Pull || shown.hands_off {
             self.use_hand(ui, &response, shown, &view, rect, &mut touches);
         } else {

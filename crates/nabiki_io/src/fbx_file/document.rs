@@ -25,7 +25,11 @@ impl Document {
         let scene = load(bytes, None)?;
         // Numbers mean the same on either hand. Mirrored, they are those of a right hand with the same up.
         let scene = match left_handed(&scene.settings.axes) {
-            Some((right, axis)) => load(bytes, Some((right, axis)))?,
+            Some(mirrored) => {
+                // One of them at a time.
+                drop(scene);
+                load(bytes, Some(mirrored))?
+            }
             None => scene,
         };
         Ok(Self { scene, budget: Budget::of(bytes.len() as u64) })
@@ -90,8 +94,7 @@ impl Document {
 
     /// The animation `clip`, which may be empty if there is only one.
     pub fn stack(&self, clip: &str) -> Result<&AnimStack> {
-        let names: Vec<Option<&str>> =
-            self.scene.anim_stacks.as_ref().iter().map(|stack| Some(&*stack.element.name)).collect();
+        let names: Vec<Option<&str>> = self.scene.anim_stacks.as_ref().iter().map(|stack| clip_name(stack)).collect();
         crate::motion::choose_clip(&names, clip).map(|n| &self.scene.anim_stacks[n])
     }
 
@@ -105,6 +108,11 @@ impl Document {
         };
         ufbx::evaluate_scene(&self.scene, anim, time, opts).map_err(|e| refusal(&e, limit))
     }
+}
+
+/// The name of an animation; none where it is empty.
+pub(crate) fn clip_name(stack: &AnimStack) -> Option<&str> {
+    Some(&*stack.element.name).filter(|name| !name.is_empty())
 }
 
 fn load(bytes: &[u8], mirrored: Option<(CoordinateAxes, MirrorAxis)>) -> Result<SceneRoot> {

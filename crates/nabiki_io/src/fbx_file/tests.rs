@@ -174,6 +174,28 @@ fn curves_of_one_value_bend_nothing_and_one_joint_carries_a_mesh_as_a_whole() {
     assert!(!is_bent(2.0, 1), "one joint");
 }
 
+/// What bends a skin may be the helper above a joint, and what carries all joints alike bends nothing.
+#[test]
+fn joints_bend_a_skin_where_they_move_against_each_other() {
+    let is_bent = |moved: u32| {
+        let mut text = Text::plain();
+        text.node(1, "skin", "Mesh", 0, &[]).mesh(2, 1, &SQUARE, &[&[0, 1, 2, 3]]).skin(3, 2, "Linear");
+        for (node, name, class, parent) in [
+            (10, "hips", "Null", 0),
+            (11, "Head", "LimbNode", 10),
+            (12, "helper", "Null", 11),
+            (13, "jaw", "LimbNode", 12),
+        ] {
+            text.node(node, name, class, parent, &[]);
+        }
+        text.cluster(21, 3, 11, &[(0, 1.0), (1, 1.0)], DVec3::ZERO);
+        text.cluster(22, 3, 13, &[(2, 1.0), (3, 1.0)], DVec3::ZERO);
+        text.stack(30, "take", None).curves(32, 31, (moved, "Lcl Translation"), &[("d|X", &[(0.0, 1.0), (1.0, 2.0)])]);
+        bends(&text.bytes(), &[], "take").unwrap()
+    };
+    assert_eq!([10, 11, 12, 13].map(is_bent), [false, false, true, true]);
+}
+
 #[test]
 fn chains_of_nodes_are_where_ufbx_has_them_however_scale_is_taken_over() {
     for inherit in 0..3 {

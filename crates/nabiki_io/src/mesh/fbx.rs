@@ -105,7 +105,8 @@ pub(crate) fn each_bent(
     Ok(())
 }
 
-/// Whether an animation bends the meshes: blend shapes, or more than one joint of a skin.
+/// Whether an animation bends the meshes: blend shapes, or joints of a skin that move against each other, because what moves
+/// one of them, or a node above it, does not move another.
 pub(crate) fn bends(bytes: &[u8], groups: &[String], clip: &str) -> Result<bool> {
     let document = Document::open(bytes)?;
     let moved = Moved::by(&document, document.stack(clip)?);
@@ -114,10 +115,18 @@ pub(crate) fn bends(bytes: &[u8], groups: &[String], clip: &str) -> Result<bool>
     Ok(meshes.into_iter().any(|mesh| {
         let mut shapes = mesh.blend_deformers.as_ref().iter().flat_map(|blend| &blend.channels);
         let clusters = mesh.skin_deformers.as_ref().first().map_or(&[][..], |skin| skin.clusters.as_ref());
-        let mut joints = clusters.iter().filter_map(|cluster| cluster.bone_node.as_ref());
+        let joints = clusters.iter().filter_map(|cluster| cluster.bone_node.as_ref());
+        let mut movers = joints.map(|joint| movers_of(joint, &moved.nodes));
+        let first = movers.next();
         shapes.any(|shape| moved.shapes[shape.element.typed_id as usize])
-            || clusters.len() > 1 && joints.any(|joint| moved.nodes[number(joint)])
+            || movers.any(|movers| first.as_ref() != Some(&movers))
     }))
+}
+
+/// Which moved nodes carry a joint: itself and those above it.
+fn movers_of(joint: &Node, moved: &[bool]) -> Vec<usize> {
+    let above = std::iter::successors(Some(joint), |node| node.parent.as_deref());
+    above.map(number).filter(|&node| moved[node]).collect()
 }
 
 /// The vertices of a mesh in an evaluated scene.

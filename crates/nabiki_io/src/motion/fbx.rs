@@ -11,7 +11,7 @@ use super::track::Sample;
 use super::world::{HeadMotion, WorldFromFile, frame_count, pose_of, poses};
 use crate::error::Result;
 use crate::fbx_file::Document;
-use crate::fbx_file::document::{Moved, Placed, number};
+use crate::fbx_file::document::{Moved, Placed, clip_name, number};
 use crate::mesh::fbx;
 
 /// Reads the poses of `source.node` in `source.clip` out of the file's bytes.
@@ -89,7 +89,7 @@ pub(crate) fn mover(bytes: &[u8], groups: &[String], counts: &dyn Fn(Vec3) -> bo
     let clips = stacks.iter().map(|stack| {
         let moved = Moved::by(&document, stack);
         let targets = moved.nodes.iter().enumerate().filter(|(_, moved)| **moved).map(|(n, _)| n).collect();
-        Animated { name: Some(&*stack.element.name), targets, morphs: moved.shapes.contains(&true) }
+        Animated { name: clip_name(stack), targets, morphs: moved.shapes.contains(&true) }
     });
     let clips: Vec<Animated> = clips.collect();
     Ok(mover_of(&tree(&document), &carried, &clips))

@@ -45,6 +45,21 @@ impl Session {
         self.tools.region = at;
     }
 
+    /// The brush stays with its region where others come and go: by its name, or with none where that is not sure.
+    pub(super) fn follow_region(&mut self) {
+        let regions = self.document.as_ref().map_or(&[][..], |document| &document.scene().free.regions);
+        let (name, count) = &self.painted;
+        if let Some(i) = self.tools.region
+            && regions.len() != *count
+            && regions.get(i).is_none_or(|region| region.name.is_empty() || region.name != *name)
+        {
+            self.tools.region = regions.iter().position(|region| !name.is_empty() && region.name == *name);
+        }
+        self.tools.region = self.tools.region.filter(|&i| i < regions.len());
+        let name = self.tools.region.map(|i| regions[i].name.clone());
+        self.painted = (name.unwrap_or_default(), regions.len());
+    }
+
     /// Hair has been combed in a frame: the aim of that frame leads it there, or a new one.
     pub(super) fn combed(&mut self, frame: u32, strands: &[(usize, Vec<Vec3>)]) {
         let Some(take) = self.take.clone() else { return };
@@ -85,9 +100,7 @@ fn comb(scene: &mut Scene, take: &Take, frame: u32, strands: &[(usize, Vec<Vec3>
     let region = aim.region.clone();
     let region = scene.free.regions.iter_mut().find(|of| region.as_ref() == Some(&of.name));
     if let Some(region) = region.filter(|region| !region.has_members()) {
-        // A new one has no place yet, which would be everywhere.
-        let known = Some(&*region).filter(|region| region.near.is_some() || !region.painted.is_empty());
-        let before = Weights::new(take.strands(), take.at_hand(), known);
+        let before = Weights::new(take.strands(), take.at_hand(), Some(&*region));
         let mut covered = vec![0.0; before.of().len()];
         // The motion may have come anew since, with other strands.
         for (strand, _) in strands {

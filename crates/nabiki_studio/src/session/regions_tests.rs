@@ -54,6 +54,25 @@ fn a_region_without_hair_is_refused_and_stays_as_it_was() {
     assert!(session.words().iter().all(|word| !word.text.contains("a region needs hair")));
 }
 
+#[test]
+fn the_brush_stays_with_its_region_where_others_go() {
+    let place = Place::new();
+    let mut session = place.session();
+    for x in [8.0, 7.0, 6.0] {
+        session.apply(Command::Use(Box::new(Tools { region: None, ..session.tools().clone() })));
+        paint(&mut session, &[[x, 4.0, 0.0, 1.0]]);
+    }
+    session.apply(Command::Use(Box::new(Tools { region: Some(1), ..session.tools().clone() })));
+    let remove = |session: &mut Session, i: usize| {
+        let key = format!("free.regions[{i}]");
+        session.apply(Command::Set { key, value: None, phase: Phase::Done });
+    };
+    remove(&mut session, 0);
+    assert_eq!((session.tools().region, regions(&session)[0].name.as_str()), (Some(0), "painted 2"));
+    remove(&mut session, 0);
+    assert_eq!((session.tools().region, regions(&session).len()), (None, 1));
+}
+
 /// The hair that was combed, and about no other hair, lies nearer to where it was combed.
 #[test]
 fn combed_hair_is_led_there_and_the_rest_stays() {

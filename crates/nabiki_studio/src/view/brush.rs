@@ -26,12 +26,19 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Those of the first `among` strands at rest in a region, by its place and what is painted.
+    /// Those of the first `among` strands at rest in a region, by its place and what is painted. A region that has neither
+    /// is not painted yet.
     pub fn new(strands: &Strands, among: usize, region: Option<&Region>) -> Self {
         let roots: Vec<Vec3> = strands.iter().take(among).map(|strand| strand[0]).collect();
+        let region = region.filter(|region| region.near.is_some() || !region.painted.is_empty());
         let of = roots.iter().map(|&root| region.map_or(0.0, |region| region.weight(root) as f32)).collect();
         let spacing = spacing(&roots);
         Self { roots, of, spacing }
+    }
+
+    /// Whether they are of these strands.
+    pub fn is_of(&self, strands: &Strands, among: usize) -> bool {
+        self.roots.iter().eq(strands.iter().take(among).map(|strand| &strand[0]))
     }
 
     /// The weights.
@@ -61,10 +68,12 @@ impl Weights {
 
     /// The same on both sides of the head: each strand has what it was given, or what the one opposite was.
     pub fn mirrored(&self, covered: &[f32]) -> Vec<f32> {
+        let reach = EVENED * self.spacing;
         let opposite = |root: &Vec3| {
             let there = Vec3::new(root.x, root.y, -root.z);
-            let far = |a: &usize| self.roots[*a].distance_squared(there);
-            (0..self.roots.len()).min_by(|a, b| far(a).total_cmp(&far(b))).map_or(0.0, |s| covered[s])
+            let far = |a: &usize| self.roots[*a].distance(there);
+            let near = (0..self.roots.len()).filter(|s| far(s) <= reach);
+            near.min_by(|a, b| far(a).total_cmp(&far(b))).map_or(0.0, |s| covered[s])
         };
         self.roots.iter().zip(covered).map(|(root, &of)| of.max(opposite(root))).collect()
     }

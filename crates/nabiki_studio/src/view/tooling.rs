@@ -21,7 +21,8 @@ const COMBED: [f32; 3] = [0.25, 0.9, 1.0];
 /// A stroke of the brush under way.
 #[derive(Debug)]
 pub struct Painting {
-    region: Option<usize>,
+    /// The region as it was, and which it is; a new one if it is left out.
+    region: Option<(usize, Region)>,
     stroke: Stroke,
     before: Weights,
     now: Weights,
@@ -36,8 +37,8 @@ pub struct Painting {
 pub struct Combing {
     comb: Comb,
     frame: u32,
-    /// How many strands were at hand.
-    among: usize,
+    /// The number of the take.
+    take: u64,
     from: Vec2,
     /// The strands as they lie now.
     strands: Vec<(usize, Vec<Vec3>)>,
@@ -92,13 +93,7 @@ impl View {
             )
         });
         let take = shown.take;
-        // A stroke is of the strands and the frame that it began on.
-        let is_over = match &self.hand {
-            Hand::Paint(painting) => painting.before.of().len() != take.at_hand(),
-            Hand::Comb(combing) => combing.frame != shown.frame || combing.among != take.at_hand(),
-            _ => false,
-        };
-        if is_over || escape && self.hand.is_busy() {
+        if escape && self.hand.is_busy() {
             self.hand = Hand::Idle;
             return touches;
         }
@@ -141,6 +136,18 @@ impl View {
         touches
     }
 
+    /// Gives up a stroke whose region, strands, frame or tool are no longer those that it began with.
+    pub(super) fn leave_other_stroke(&mut self, shown: &Shown<'_>) {
+        let is_of = match &self.hand {
+            Hand::Paint(painting) => painting.is_of(shown),
+            Hand::Comb(combing) => combing.is_of(shown),
+            _ => return,
+        };
+        if !is_of || shown.hands_off {
+            self.hand = Hand::Idle;
+        }
+    }
+
     /// What a press begins: a stroke on hair, or a turn of the camera beside it.
     fn begin(
         &self,
@@ -165,7 +172,7 @@ impl View {
             return Ok(Hand::Comb(Box::new(Combing {
                 comb,
                 frame: shown.frame,
-                among: seen.among,
+                take: shown.take.number,
                 from: pixel,
                 strands: Vec::new(),
             })));
@@ -180,7 +187,8 @@ impl View {
             stroke => stroke,
         };
         let region = shown.tools.region.filter(|&i| i < shown.regions.len());
-        let before = Weights::new(seen.strands, seen.among, region.map(|i| &shown.regions[i]));
+        let region = region.map(|i| (i, shown.regions[i].clone()));
+        let before = Weights::new(seen.strands, seen.among, region.as_ref().map(|(_, region)| region));
         let covered = vec![0.0; before.of().len()];
         Ok(Hand::Paint(Box::new(Painting { region, stroke, now: before.clone(), before, covered, way: vec![pixel] })))
     }
@@ -243,6 +251,13 @@ impl View {
 }
 
 impl Painting {
+    fn is_of(&self, shown: &Shown<'_>) -> bool {
+        let is_there = |(i, region): &(usize, Region)| shown.regions.get(*i) == Some(region);
+        shown.tools.tool == Tool::Paint
+            && self.region.as_ref().is_none_or(is_there)
+            && self.before.is_of(shown.take.strands(), shown.take.at_hand())
+    }
+
     fn is_lasso(&self, shown: &Shown<'_>) -> bool {
         shown.tools.stroke == Stroke::Lasso
     }
@@ -282,14 +297,18 @@ impl Painting {
             self.now = self.before.stroked(self.stroke, &covered);
         }
         (self.now != self.before).then(|| {
-            let mut painted = self.region.map_or_else(Region::default, |i| shown.regions[i].clone());
+            let (region, mut painted) = self.region.clone().map_or((None, Region::default()), |(i, of)| (Some(i), of));
             self.now.paint(&mut painted);
-            Touch::Painted { region: self.region, painted: Box::new(painted) }
+            Touch::Painted { region, painted: Box::new(painted) }
         })
     }
 }
 
 impl Combing {
+    fn is_of(&self, shown: &Shown<'_>) -> bool {
+        (shown.tools.tool, shown.frame, shown.take.number) == (Tool::Comb, self.frame, self.take)
+    }
+
     fn go(&mut self, seen: &Seen<'_>, pixel: Vec2) {
         let at = |pixel| place_in_plane(seen.view, pixel, self.comb.hand);
         let way = at(pixel) - at(self.from);

@@ -51,6 +51,20 @@ fn a_stroke_paints_a_region_that_is_saved_and_opened_again() {
 }
 
 #[test]
+fn a_stroke_over_a_region_that_is_undone_meanwhile_is_given_up() {
+    let mut window = Window::open();
+    window.press(Modifiers::NONE, Key::B);
+    stroke(&mut window, true);
+    assert_eq!(scene(&window).free.regions.len(), 1);
+    window.click("Erase");
+    let at = stroke(&mut window, false);
+    window.press(Modifiers::COMMAND, Key::Z);
+    window.button(at, false);
+    window.settle();
+    assert!(scene(&window).free.regions.is_empty());
+}
+
+#[test]
 fn a_combed_frame_becomes_an_aim_and_escape_gives_a_stroke_up() {
     let mut window = Window::open();
     window.press(Modifiers::NONE, Key::H);
