@@ -107,8 +107,14 @@ impl Region {
     /// The weight that is painted at this root.
     fn painted_weight(&self, root: DVec3) -> f64 {
         let mut nearest = Nearest::default();
+        let mut reach = f64::INFINITY;
         for (i, &[x, y, z, _]) in self.painted.iter().enumerate() {
-            nearest.offer(root.distance(Vec3::new(x, y, z).as_dvec3()), i as u32);
+            let apart = root.distance_squared(Vec3::new(x, y, z).as_dvec3());
+            // Most of many points are too far away to need a root.
+            if apart <= reach {
+                nearest.offer(apart.sqrt(), i as u32);
+                reach = nearest.reach().powi(2);
+            }
         }
         let inside = self.inside(nearest.distance());
         if inside == 0.0 {
