@@ -28,7 +28,7 @@ fn shake(frame: f64, late: f64) -> f64 {
 fn pose(frame: f64) -> Vec<Move> {
     let mut moves = vec![Move::NONE; JOINTS.len()];
     let begins = eased(frame, 0.0, 14.0);
-    let ends = 1.0 - eased(frame, 118.0, 132.0);
+    let ends = 1.0 - eased(frame, 106.0, 130.0);
     let breath = (TAU * frame / 44.0).sin() * begins * ends;
     // It looks to its right, back, and stretches down before it shakes.
     let look =
@@ -52,7 +52,7 @@ fn pose(frame: f64) -> Vec<Move> {
         let lift =
             keyed(&[(40.0 + 2.0 * late, 0.0), (64.0 + 2.0 * late, 1.0), (96.0 + 2.0 * late, 1.0), (124.0, 0.0)], frame);
         let wag = shake(frame, 0.8 + 0.07 * late);
-        moves[joint] = Move::degrees(-5.0 * lift, 0.0, (7.0 + 2.0 * late) * sweep + 4.0 * wag);
+        moves[joint] = Move::degrees(-5.0 * lift, 0.0, (5.5 + 1.5 * late) * sweep + 1.5 * wag);
     }
     // The legs give way as the body turns and bows, and the paws stay about where they are.
     for (leg, &[upper, lower]) in LEG.iter().enumerate() {
