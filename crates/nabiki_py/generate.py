@@ -51,9 +51,11 @@ def types(schema):
         words = f"Literal[{', '.join(f'{chr(34)}{word}{chr(34)}' for word in schema['enum'])}]"
         return words, words
     if schema["type"] == "array":
-        read, _ = types(schema["items"])
+        read, inner = types(schema["items"])
         if count := schema.get("maxItems"):
             return f"tuple[{', '.join([read] * count)}]", "Numbers"
+        if schema["items"].get("type") == "array":
+            return f"tuple[{read}, ...]", f"Sequence[{inner}]"
         given = [] if read == "float" else [f"Sequence[{read}]"]
         return f"tuple[{read}, ...]", " | ".join(["Numbers"] * read.startswith("float") + given)
     if schema.get("format") == "path":

@@ -126,6 +126,9 @@ def in_words(schema):
         items, count = schema["items"], schema.get("maxItems")
         if "type" not in items:
             return f"list: {in_words(items)}"
+        if items["type"] == "array":
+            inner = in_words(items)
+            return "list of " + (f"lists{inner.removeprefix('list')}" if inner.startswith("list") else f"groups of {inner}")
         plural = {"number": "numbers", "integer": "whole numbers", "string": "texts"}[items["type"]]
         return (f"{count} {plural}" if count else f"list of {plural}") + (", each" + bounds(items).removeprefix(",") if bounds(items) else "")
     if kind == "string":

@@ -213,8 +213,8 @@ class SceneSettings(_nabiki.Scene):
 
     @property
     def aim(self) -> Tables[AimSettings]:
-        """A shape that hair is led to in some frames, whatever the wind does: a pose of curves from a file, a point, or
-        the groom. Free form only.
+        """A shape that hair is led to in some frames, whatever the wind does: a pose of curves, a point, or the groom.
+        Free form only.
         """
         return Tables(self, 'aim', AimSettings)
 

@@ -362,9 +362,9 @@ class LockVariation(Table):
 class Region(Table):
     """Hair that moves differently from the rest, such as a fringe that stays in the wind.
 
-    A strand belongs to the region by its group, by an attribute of the hair, by a painted map, or if its root is near
-    a point or line; with several of these, by all of them. Each factor multiplies a setting of `[free]`: one number,
-    or a list from root to tip. Where regions overlap, their factors multiply.
+    A strand belongs to the region by its group, by an attribute of the hair, by a painted map, by painted points, or
+    if its root is near a point or line; with several of these, by all of them. Each factor multiplies a setting of
+    `[free]`: one number, or a list from root to tip. Where regions overlap, their factors multiply.
     """
 
     __slots__ = ()
@@ -404,6 +404,18 @@ class Region(Table):
         self._set('attribute', value)
 
     @property
+    def values(self) -> tuple[int, ...]:
+        """Values of the attribute that belong to the region, such as the numbers of clumps. Without them, the attribute
+        is a weight. List of whole numbers; default: none.
+        """
+        value: tuple[int, ...] = self._get('values')
+        return value
+
+    @values.setter
+    def values(self, value: Sequence[int] | None) -> None:
+        self._set('values', value)
+
+    @property
     def map(self) -> str | None:
         """A picture over the head, PNG: white where hair belongs to it fully, black where it does not. Hair finds its
         place by its own root UVs, or else by the UVs of the head's mesh where it grows. Path; default: none.
@@ -414,6 +426,20 @@ class Region(Table):
     @map.setter
     def map(self, value: File | None) -> None:
         self._set('map', value)
+
+    @property
+    def painted(self) -> tuple[tuple[float, float, float, float], ...]:
+        """Painted points of the skin, as the studio's brush leaves them: x, y, z in the space of the head at rest (cm),
+        and how much hair there belongs to the region, 0 to 1. A root takes the weights of the three points nearest to
+        it, and belongs to the region only up to `within` from the nearest one, fading over `soft`. List of groups of
+        4 numbers, each -1000 to 1000; default: none.
+        """
+        value: tuple[tuple[float, float, float, float], ...] = self._get('painted')
+        return value
+
+    @painted.setter
+    def painted(self, value: Sequence[Numbers] | None) -> None:
+        self._set('painted', value)
 
     @property
     def near(self) -> tuple[float, float, float] | None:
@@ -641,8 +667,8 @@ class NeighbourForces(Table):
 
 
 class AimSettings(Table):
-    """A shape that hair is led to in some frames, whatever the wind does: a pose of curves from a file, a point, or the
-    groom. Free form only.
+    """A shape that hair is led to in some frames, whatever the wind does: a pose of curves, a point, or the groom. Free
+    form only.
     """
 
     __slots__ = ()
@@ -680,6 +706,18 @@ class AimSettings(Table):
     @file.setter
     def file(self, value: File | None) -> None:
         self._set('file', value)
+
+    @property
+    def curves(self) -> tuple[tuple[tuple[float, float, float], ...], ...]:
+        """Curves of the shape instead of a file, as the studio's comb leaves them: lists of points from root to tip, in
+        head space (cm). List of lists of groups of 3 numbers, each -100000 to 100000; default: none.
+        """
+        value: tuple[tuple[tuple[float, float, float], ...], ...] = self._get('curves')
+        return value
+
+    @curves.setter
+    def curves(self, value: Sequence[Sequence[Numbers]] | None) -> None:
+        self._set('curves', value)
 
     @property
     def frame(self) -> int | None:
