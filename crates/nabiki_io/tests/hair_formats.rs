@@ -160,8 +160,8 @@ fn a_missing_file_a_folder_and_a_strange_ending_are_named() {
     let error = hair::read("hair.fbx".as_ref()).unwrap_err().to_string();
     assert_eq!(
         error,
-        "hair.fbx: ending \"fbx\" is not a hair format: .hair, .tfx, .usd, .usda, .usdc or .abc (.obj only to read); its \
-         programs read and write USD and Alembic"
+        "hair.fbx: ending \"fbx\" is not a hair format: .hair, .tfx, .usd, .usda, .usdc or .abc (.obj only to read); it \
+         holds heads and motion: its programs write hair as USD or Alembic"
     );
 }
 

@@ -43,6 +43,7 @@ impl Session {
             }
         });
         self.tools.region = at;
+        self.note_region();
     }
 
     /// The brush stays with its region where others come and go: by its name, or with none where that is not sure.
@@ -55,6 +56,12 @@ impl Session {
         {
             self.tools.region = regions.iter().position(|region| !name.is_empty() && region.name == *name);
         }
+        self.note_region();
+    }
+
+    /// Remembers the region that is painted, and how many there are.
+    fn note_region(&mut self) {
+        let regions = self.document.as_ref().map_or(&[][..], |document| &document.scene().free.regions);
         self.tools.region = self.tools.region.filter(|&i| i < regions.len());
         let name = self.tools.region.map(|i| regions[i].name.clone());
         self.painted = (name.unwrap_or_default(), regions.len());
