@@ -185,7 +185,7 @@ impl View {
         }
         let before = touches.len();
         self.leave_other_stroke(shown);
-        if shown.tools.tool == Tool::Pull || shown.hands_off {
+        if shown.tool() == Tool::Pull {
             self.use_hand(ui, &response, shown, &view, rect, &mut touches);
         } else {
             touches.extend(self.use_tool(ui, response.contains_pointer(), shown, &view, rect));
@@ -205,7 +205,7 @@ impl View {
         self.felt = self.let_go.as_ref().and_then(|let_go| let_go.felt(shown.force));
         // Arrows would hide the hair that is looked at.
         let pulls = matches!(self.hand, Hand::Hair(_)) || self.let_go.as_ref().is_some_and(LetGo::is_looking);
-        let tool = shown.tools.tool != Tool::Pull && !shown.hands_off;
+        let tool = shown.tool() != Tool::Pull;
         let selected_interval = shown.selected_interval.filter(|_| !tool);
         let shown = &Shown { wind: shown.wind && !pulls && !tool, selected_interval, ..*shown };
 
@@ -321,7 +321,7 @@ impl View {
         now: f64,
     ) {
         let Ok(screen) = &mut self.screen else { return };
-        let tool = shown.tools.tool != Tool::Pull && !shown.hands_off;
+        let tool = shown.tool() != Tool::Pull;
         if !shown.final_picture || shown.playing || self.hand.is_busy() || shown.ghosts || tool {
             self.rest.touch(now);
             if let Some(thread) = &self.final_picture {
@@ -447,7 +447,7 @@ impl View {
                 let hair = let_go.lock.middle(points, strands);
                 return overlay.thread(&in_head, let_go.goal, hair, Some(&words));
             }
-            Hand::Idle | Hand::Paint(_) | Hand::Comb(_) if shown.tools.tool != Tool::Pull && !shown.hands_off => {
+            Hand::Idle | Hand::Paint(_) | Hand::Comb(_) if shown.tool() != Tool::Pull => {
                 self.draw_tool(overlay, response.hover_pos(), shown);
             }
             Hand::Idle if !shown.playing && shown.frame > 0 && !shown.hands_off => {

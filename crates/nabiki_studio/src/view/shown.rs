@@ -12,7 +12,7 @@ use nabiki_scene::scene::AimSettings;
 use super::Navigation;
 use crate::document::Phase;
 use crate::take::Take;
-use crate::tools::Tools;
+use crate::tools::{Tool, Tools};
 
 /// All that is shown, and what is selected of it.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +51,13 @@ pub struct Shown<'a> {
     pub aims: &'a [AimSettings],
     /// Whether the scene is in the free form, which regions and aims need.
     pub is_free: bool,
+}
+
+impl Shown<'_> {
+    /// The tool that a hand has: what is not the scene is not changed.
+    pub fn tool(&self) -> Tool {
+        if self.hands_off { Tool::Pull } else { self.tools.tool }
+    }
 }
 
 /// What a hand did in the view, for the session to make true.

@@ -143,7 +143,7 @@ impl View {
             Hand::Comb(combing) => combing.is_of(shown),
             _ => return,
         };
-        if !is_of || shown.hands_off {
+        if !is_of {
             self.hand = Hand::Idle;
         }
     }
@@ -195,7 +195,7 @@ impl View {
 
     /// Finds the lines that show what is painted or combed, if they are others than before.
     pub(super) fn mark(&mut self, shown: &Shown<'_>, view: &Camera) {
-        let tool = if shown.hands_off || shown.playing { Tool::Pull } else { shown.tools.tool };
+        let tool = if shown.playing { Tool::Pull } else { shown.tool() };
         let region = shown.tools.region.and_then(|i| shown.regions.get(i)).filter(|_| tool == Tool::Paint);
         let posed = shown.aims.iter().filter(|aim| tool == Tool::Comb && aim.frame == Some(shown.frame));
         let of = (tool != Tool::Pull).then(|| Of {
@@ -253,7 +253,7 @@ impl View {
 impl Painting {
     fn is_of(&self, shown: &Shown<'_>) -> bool {
         let is_there = |(i, region): &(usize, Region)| shown.regions.get(*i) == Some(region);
-        shown.tools.tool == Tool::Paint
+        shown.tool() == Tool::Paint
             && self.region.as_ref().is_none_or(is_there)
             && self.before.is_of(shown.take.strands(), shown.take.at_hand())
     }
@@ -306,7 +306,7 @@ impl Painting {
 
 impl Combing {
     fn is_of(&self, shown: &Shown<'_>) -> bool {
-        (shown.tools.tool, shown.frame, shown.take.number) == (Tool::Comb, self.frame, self.take)
+        (shown.tool(), shown.frame, shown.take.number) == (Tool::Comb, self.frame, self.take)
     }
 
     fn go(&mut self, seen: &Seen<'_>, pixel: Vec2) {
