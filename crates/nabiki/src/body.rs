@@ -15,12 +15,15 @@ use crate::setting::{Place, refused};
 use crate::settings;
 use crate::strands::bounds;
 
+/// The largest margin (cm).
+pub(crate) const MOST_MARGIN: f64 = 5.0;
+
 settings! {
     /// How hair and a body touch in the free form.
     #[derive(Copy)]
     pub struct Contact where holds_what_lies_still {
         /// Distance that nodes keep from the skin. A node that is closer at rest keeps its rest distance.
-        pub margin: f32 = 0.1 => "Margin", unit "cm", least 0.0, most 5.0;
+        pub margin: f32 = 0.1 => "Margin", unit "cm", least 0.0, most MOST_MARGIN;
         /// Friction of sliding hair: the share of the push that it loses as speed along the skin (Coulomb).
         pub friction: f32 = 0.1 => "Friction", least 0.0, most 10.0;
         /// Friction of hair that does not slide, at least `friction`. Hair starts to slide when the force along the
@@ -238,12 +241,13 @@ impl Body {
     }
 
     /// The surface that a node resting at this point (body space, cm) stays outside of, and its distance from that
-    /// surface. The distance is the margin, or the distance at rest if that is smaller.
-    pub fn kept_from(&self, at_rest: Vec3) -> (Surface, f32) {
-        let distance = |shape: &dyn Obstacle| shape.read_at_rest(at_rest).map_or(self.contact.margin, |at| at.distance);
+    /// surface: the margin times the strand's factor on it, or the distance at rest if that is smaller.
+    pub fn kept_from(&self, at_rest: Vec3, times: f64) -> (Surface, f32) {
+        let margin = (f64::from(self.contact.margin) * times) as f32;
+        let distance = |shape: &dyn Obstacle| shape.read_at_rest(at_rest).map_or(margin, |at| at.distance);
         match self.filled.as_deref().map(|filled| distance(filled)) {
-            Some(distance) if distance >= 0.0 => (Surface::Filled, distance.min(self.contact.margin)),
-            _ => (Surface::Skin, distance(self.shape.obstacle()).min(self.contact.margin)),
+            Some(distance) if distance >= 0.0 => (Surface::Filled, distance.min(margin)),
+            _ => (Surface::Skin, distance(self.shape.obstacle()).min(margin)),
         }
     }
 
@@ -329,7 +333,7 @@ mod tests {
         for (half, filled) in [(0.01, false), (9.0, true), (900.0, false), (9e4, false)] {
             let body = Body::head(&boxed(half), Contact::default());
             assert_eq!(body.filled.is_some(), filled, "{half} cm");
-            let (_, clearance) = body.kept_from(Vec3::new(0.0, 1.05 * half, 0.0));
+            let (_, clearance) = body.kept_from(Vec3::new(0.0, 1.05 * half, 0.0), 1.0);
             assert!((0.0..=body.contact.margin).contains(&clearance), "{half} cm: {clearance}");
         }
     }

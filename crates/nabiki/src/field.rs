@@ -27,7 +27,7 @@ pub use flow::{Flow, FlowField};
 pub use gust::{Gust, GustField};
 pub use keyframed::{Ease, Keyframe, KeyframedField, Wind};
 pub use point::{Point, PointField};
-pub use sum::FieldSum;
+pub use sum::{FieldSum, WIND};
 pub use turbulence::{Turbulence, TurbulenceField};
 pub use uniform::UniformField;
 pub use vortex::{Vortex, VortexField};
@@ -76,6 +76,28 @@ pub trait Field: Debug + Send + Sync {
             let force = self.at(Vec3::new(points[0][i], points[1][i], points[2][i]), frame);
             [forces[0][i], forces[1][i], forces[2][i]] = force.to_array();
         }
+    }
+
+    /// Names of the parts that hair may feel more or less of, see [`Region::fields`](crate::region::Region::fields).
+    fn parts(&self) -> &[String] {
+        &[]
+    }
+
+    /// The force at a point in a frame on a strand that feels each part as often as `share` says of its name.
+    fn at_shared(&self, point: Vec3, frame: u32, _share: &dyn Fn(&str) -> f32) -> Vec3 {
+        self.at(point, frame)
+    }
+
+    /// The forces at sixteen points, each on a strand of its own, with the same bits as [`at_shared`](Self::at_shared).
+    /// `share` returns the shares of the strands in a part; `None` if they feel it as it is.
+    fn at_row_shared(
+        &self,
+        points: &VectorRow,
+        frame: u32,
+        _share: &dyn Fn(&str) -> Option<[f32; ROW]>,
+        forces: &mut VectorRow,
+    ) {
+        self.at_row(points, frame, forces);
     }
 }
 

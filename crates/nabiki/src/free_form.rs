@@ -5,13 +5,14 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use crate::aim::Aim;
-use crate::body::Body;
+use crate::body::{Body, MOST_MARGIN};
 use crate::chance::Chance;
 use crate::error::SettingError;
+use crate::field::Field;
 use crate::locks::{Lock, LockVariation, Locks, Own};
 use crate::pose::{Pose, check_poses};
 use crate::profile::Profile;
-use crate::region::{Belongs, Members, Region};
+use crate::region::{Belongs, FieldShares, Members, Region};
 use crate::settings;
 use crate::strands::Strands;
 
@@ -113,6 +114,42 @@ impl FreeForm {
         self.regions.iter().map(|region| f64::from(region.stiffness.largest().max(1.0))).product()
     }
 
+    /// The most by which regions multiply the weight of hair, as if all of them overlapped.
+    pub(crate) fn most_weight(&self) -> f64 {
+        self.regions.iter().map(|region| f64::from(region.gravity.max(1.0))).product()
+    }
+
+    /// The most by which regions multiply the margin of a contact.
+    pub fn most_margin(&self) -> f32 {
+        self.regions.iter().map(|region| region.margin.max(1.0)).product()
+    }
+
+    /// Names of the fields that strands feel in shares of their own, in order.
+    pub(crate) fn shared(&self) -> Vec<&str> {
+        let mut names: Vec<&str> =
+            self.regions.iter().flat_map(|region| &region.fields).map(|of| of.field.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+
+    /// Refuses a region's share in a field that is not there.
+    pub(crate) fn check_shares(&self, field: &dyn Field) -> Result<(), SettingError> {
+        let there = field.parts();
+        for (i, region) in self.regions.iter().enumerate() {
+            let unknown = region.fields.iter().position(|of| !there.contains(&of.field));
+            if let Some(j) = unknown {
+                let key = format!("free.regions[{i}].fields[{j}].field");
+                let remedy = match there {
+                    [] => "there is no such field: remove it".to_owned(),
+                    _ => format!("there is no such field; there is {}", there.join(", ")),
+                };
+                return Err(SettingError::new(key, format!("{:?}", region.fields[j].field), remedy));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether strands may differ in what they make of the wind.
     pub(crate) fn wind_differs(&self) -> bool {
         self.variation.is_some() || self.regions.iter().any(|region| region.wind != 1.0)
@@ -199,8 +236,16 @@ impl FreeMotion {
         let mut own = self.form.variation.map_or_else(Own::default, |variation| {
             variation.of(&self.lock(strand), Chance::at_point(self.locks.seed, strand[0]))
         });
-        own.wind *= self.regions_of(strand[0]).wind();
+        let regions = self.regions_of(strand[0]);
+        own.wind *= regions.product(|region| region.wind);
+        own.weight *= regions.product(|region| region.gravity);
+        own.margin *= regions.product(|region| region.margin);
         own
+    }
+
+    /// How strongly the strand with this root (head space at rest, cm) feels the fields that regions name.
+    pub(crate) fn shares(&self, root: Vec3) -> FieldShares {
+        self.regions_of(root).shares(self.form.shared())
     }
 
     /// The regions that the strand with this root (head space at rest, cm) belongs to.
@@ -223,6 +268,21 @@ impl FreeMotion {
         self.form.regions[region].weight(root) * self.members_of(region).map_or(1.0, |members| members.weight(root))
     }
 
+    /// Refuses a region that keeps hair farther from a body than a contact may.
+    fn check_margins(&self) -> Result<(), SettingError> {
+        let times = self.form.most_margin();
+        let keeps = |body: &Body| body.contact.margin * times;
+        let too_far = self.bodies.iter().find(|body| times > 1.0 && f64::from(keeps(body)) > MOST_MARGIN);
+        let Some(body) = too_far else { return Ok(()) };
+        let i = self.form.regions.iter().position(|region| region.margin > 1.0).unwrap_or_default();
+        let remedy = format!(
+            "the regions together multiply {}.margin to {} cm, but at most {MOST_MARGIN} cm is possible: lower one of them",
+            body.name,
+            keeps(body)
+        );
+        Err(SettingError::new(format!("free.regions[{i}].margin"), self.form.regions[i].margin, remedy))
+    }
+
     /// Refuses settings out of range, and bodies without a pose in any of the `frames` frames after frame 0.
     pub fn check(&self, frames: u32) -> Result<(), SettingError> {
         self.form.check()?;
@@ -236,6 +296,7 @@ impl FreeMotion {
             return Err(SettingError::new("free.variation.size", self.locks.size, "must be above 0"));
         }
         self.bodies.iter().try_for_each(|body| body.check(frames))?;
+        self.check_margins()?;
         self.aims.iter().try_for_each(|aim| aim.check(self.form.regions.len()))?;
         check_poses("head.motion", &[self.rest_pose])?;
         match &self.neighbours {

@@ -92,6 +92,10 @@ pub struct Own {
     pub stiffness: f64,
     /// Factor on the force of the field alone.
     pub wind: f64,
+    /// Factor on the weight.
+    pub weight: f64,
+    /// Factor on the distance that it keeps from bodies.
+    pub margin: f64,
     /// How much the wind on the strand varies in strength and direction.
     pub flutter: f64,
     /// The rhythm of that variation: of its strength, and of the three axes of its turns.
@@ -118,7 +122,7 @@ impl Wave {
 impl Default for Own {
     fn default() -> Self {
         let rhythm = [[Wave::default(); 2]; 4];
-        Self { air: 1.0, stiffness: 1.0, wind: 1.0, flutter: 0.0, rhythm }
+        Self { air: 1.0, stiffness: 1.0, wind: 1.0, weight: 1.0, margin: 1.0, flutter: 0.0, rhythm }
     }
 }
 

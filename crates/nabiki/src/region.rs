@@ -67,8 +67,39 @@ settings! {
         pub settle: Profile = Profile::Even(1.0) => "Settle", least 0.01, most MOST;
         /// Factor on the forces of all fields. At 0, no wind moves the hair.
         pub wind: f32 = 1.0 => "Wind", least 0.0, most MOST;
+        /// Factors on single fields, such as a fan that the fringe does not feel.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub fields: Vec<FieldShare> = Vec::new() => "Fields";
+        /// Factor on `free.gravity`, for each strand as a whole. Hair at rest does not sag, whatever its weight.
+        pub gravity: f32 = 1.0 => "Weight", least 0.0, most MOST;
+        /// Factor on the distance that hair keeps from the head and from bodies, `contact.margin`.
+        pub margin: f32 = 1.0 => "Margin", least 0.0, most MOST;
         /// Factor on `free.drag`.
         pub drag: Profile = Profile::Even(1.0) => "Drag", least 0.0, most MOST;
+    }
+}
+
+settings! {
+    /// How strongly the hair of a region feels one field.
+    pub struct FieldShare where names_a_field {
+        /// The field: "wind" for `[[force]]`, `[gust]`, `[body_wind]` and `[flow]` together, "turbulence", or a table of
+        /// which there may be several with its number, from 0, such as "fan[0]".
+        pub field: String = "turbulence".to_owned() => "Field", must "\"turbulence\"";
+        /// Factor on its force. At 0, the hair does not feel it.
+        pub share: f32 = 0.3 => "Share", must "0.3", least 0.0, most MOST;
+    }
+}
+
+impl FieldShare {
+    fn names_a_field(&self, at: &Place) -> Result<(), SettingError> {
+        match self.field.as_str() {
+            "" => Err(SettingError::new(
+                &at.key("field"),
+                "",
+                "is empty: give the name of a field, such as \"turbulence\"",
+            )),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -77,6 +108,16 @@ impl Region {
     /// needs [`Members`].
     pub fn has_members(&self) -> bool {
         !self.groups.is_empty() || self.attribute.is_some() || self.map.is_some()
+    }
+
+    /// The factor on the force of the field with this name. Several factors on the same field multiply.
+    fn share_of(&self, field: &str) -> f32 {
+        self.fields.iter().filter(|of| of.field == field).map(|of| of.share).product()
+    }
+
+    /// The most by which it multiplies the force of any field.
+    pub(crate) fn most_force(&self) -> f32 {
+        self.fields.iter().map(|of| self.share_of(&of.field)).fold(1.0, f32::max) * self.wind
     }
 
     /// How much a strand with this root (head space at rest, cm) belongs to the region by its place: 1 inside, 0 outside,
@@ -180,11 +221,42 @@ impl<'a> Belongs<'a> {
             .fold(first, |product, (region, weight)| product * (factor(region).at(along) - 1.0).mul_add(*weight, 1.0))
     }
 
-    /// The factor on the force of all fields.
-    pub fn wind(&self) -> f64 {
+    /// The product of a factor of the regions on the strand as a whole.
+    pub fn product(&self, factor: impl Fn(&Region) -> f32) -> f64 {
         self.0
             .iter()
-            .fold(1.0, |product, (region, weight)| product * (f64::from(region.wind) - 1.0).mul_add(*weight, 1.0))
+            .fold(1.0, |product, (region, weight)| product * (f64::from(factor(region)) - 1.0).mul_add(*weight, 1.0))
+    }
+
+    /// The factors on the forces of the fields with these names.
+    pub fn shares(&self, fields: Vec<&str>) -> FieldShares {
+        let share = |field: &str| (field.to_owned(), self.product(|region| region.share_of(field)) as f32);
+        FieldShares(fields.into_iter().map(share).collect())
+    }
+}
+
+/// How strongly a strand feels the fields that regions name: factors on their forces.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FieldShares(Vec<(String, f32)>);
+
+impl FieldShares {
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The factor on the field with this name.
+    pub fn of(&self, field: &str) -> f32 {
+        self.0.iter().find(|of| of.0 == field).map_or(1.0, |of| of.1)
+    }
+
+    /// The largest factor, at least 1.
+    pub fn largest(&self) -> f32 {
+        self.0.iter().map(|of| of.1).fold(1.0, f32::max)
+    }
+
+    /// The factors, in the order of their names.
+    pub fn factors(&self) -> impl Iterator<Item = f32> {
+        self.0.iter().map(|of| of.1)
     }
 }
 
@@ -260,7 +332,11 @@ mod tests {
         let belongs = |weights: &[f64]| {
             let of = Belongs::new(weights.iter().map(|&weight| (&region, weight)));
             let hold = |along| of.times(1.0, |region| &region.hold, along);
-            ([hold(0.0), hold(0.5), hold(1.0)], of.wind(), of.times(7.0, |region| &region.stiffness, 0.3))
+            (
+                [hold(0.0), hold(0.5), hold(1.0)],
+                of.product(|region| region.wind),
+                of.times(7.0, |region| &region.stiffness, 0.3),
+            )
         };
         assert_eq!(belongs(&[0.5]), ([2.0, 2.5, 3.0], 0.5, 7.0));
         assert_eq!(belongs(&[0.5, 0.5]), ([4.0, 6.25, 9.0], 0.25, 7.0));

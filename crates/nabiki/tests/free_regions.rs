@@ -3,12 +3,15 @@
 mod common;
 
 use common::{bits, exact, fast, field, free, free_motion, hair, run, run_under, twins_apart, way_of_a_head, wind};
+use std::sync::Arc;
+
 use glam::Vec3;
 use nabiki::Profile;
 use nabiki::body::{Body, Contact};
-use nabiki::dynamics::Simulation;
+use nabiki::dynamics::{Dynamics, Simulation};
+use nabiki::field::{Field, FieldSum, Turbulence, TurbulenceField};
 use nabiki::free_form::{FreeForm, FreeMotion};
-use nabiki::region::{Members, Region};
+use nabiki::region::{FieldShare, Members, Region};
 use nabiki_groom::bust;
 
 const FRAMES: u32 = 40;
@@ -94,6 +97,87 @@ fn hair_outside_keeps_its_bits_and_hair_that_no_wind_moves_rests_to_the_bit() {
     assert!(inside > 10 && outside > 10, "{inside} in, {outside} out");
 }
 
+fn swirls() -> Arc<dyn Field> {
+    let settings = Turbulence { strength: 60.0, drift: 0.0, ..Turbulence::default() };
+    Arc::new(TurbulenceField::new(&settings, common::HEAD, &[], &[]).unwrap())
+}
+
+fn both(wind: Arc<dyn Field>, swirls: Arc<dyn Field>) -> FieldSum {
+    FieldSum::named(vec![("wind".to_owned(), wind), ("turbulence".to_owned(), swirls)])
+}
+
+fn share(field: &str, share: f32) -> FieldShare {
+    FieldShare { field: field.to_owned(), share }
+}
+
+/// A share of 0 takes a field away, one of 1 leaves all bits, and one of a half is a field half as strong: factors that are
+/// powers of 2 round alike.
+#[test]
+fn a_share_of_one_field_is_that_field_at_that_strength() {
+    let strands = hair(20, 12);
+    let half = field(&[(50, [-50.0, 0.0, 0.0]), (100, [-7.5, -75.0, 0.0])]);
+    let sum = both(Arc::new(wind()), swirls());
+    let with = |fields: Vec<FieldShare>| free(with(vec![Region { fields, ..everywhere() }]));
+    let motion = |dynamics: &Dynamics, field: &dyn Field| {
+        let exact = bits(&run(&mut exact(&strands, dynamics, field), field, FRAMES));
+        (exact, bits(&run(&mut fast(&strands, dynamics, field), field, FRAMES)))
+    };
+    let plain = free(FreeForm::default());
+    assert_eq!(motion(&with(vec![share("wind", 1.0), share("turbulence", 1.0)]), &sum), motion(&plain, &sum));
+    assert_eq!(motion(&with(vec![share("turbulence", 0.0)]), &sum), motion(&plain, &wind()));
+    assert_eq!(motion(&with(vec![share("wind", 0.0)]), &sum), motion(&plain, &*swirls()));
+    let halved = both(Arc::new(half), swirls());
+    assert_eq!(motion(&with(vec![share("wind", 0.5)]), &sum), motion(&plain, &halved));
+    // Of a uniform field alone, too.
+    let alone = FieldSum::named(vec![("wind".to_owned(), Arc::new(wind()) as Arc<dyn Field>)]);
+    let quarter = field(&[(50, [-25.0, 0.0, 0.0]), (100, [-3.75, -37.5, 0.0])]);
+    assert_eq!(motion(&with(vec![share("wind", 0.5), share("wind", 0.5)]), &alone), motion(&plain, &quarter));
+}
+
+#[test]
+fn a_share_in_a_field_that_is_not_there_is_refused() {
+    let dynamics = free(with(vec![Region { fields: vec![share("fan[3]", 0.5)], ..left() }]));
+    let strands = hair(4, 12);
+    let refused = |field: &dyn Field| Simulation::new(&strands, &dynamics, field).err().unwrap().to_string();
+    let line = refused(&both(Arc::new(wind()), swirls()));
+    assert_eq!(line, "free.regions[0].fields[0].field = \"fan[3]\": there is no such field; there is wind, turbulence");
+    assert!(refused(&wind()).contains("there is no such field: remove it"), "{}", refused(&wind()));
+}
+
+/// Hair of half the weight moves as all hair does under half of the gravity, on a head that turns it over, and keeps from the head
+/// what a margin half as large keeps.
+#[test]
+fn weight_and_margin_are_factors_on_the_settings() {
+    let strands = hair(20, 12);
+    let poses = way_of_a_head(FRAMES);
+    let motion = |form: FreeForm, margin: f32| {
+        let bodies = vec![Body::head(&bust(), Contact { margin, ..Contact::default() })];
+        let dynamics = free_motion(FreeMotion { form, bodies, ..FreeMotion::default() });
+        let exact = run_under(&mut exact(&strands, &dynamics, &wind()), &wind(), &poses);
+        (bits(&exact), bits(&run_under(&mut fast(&strands, &dynamics, &wind()), &wind(), &poses)))
+    };
+    let region = Region { gravity: 0.5, margin: 2.0, ..everywhere() };
+    // Steps are counted for the heaviest hair.
+    let form = FreeForm { gravity: 64.0, substeps: Some(4), ..FreeForm::default() };
+    let regional = motion(FreeForm { regions: vec![region], ..form.clone() }, 0.25);
+    assert_eq!(regional, motion(FreeForm { gravity: 32.0, ..form.clone() }, 0.5));
+    assert_ne!(regional, motion(form, 0.25));
+}
+
+#[test]
+fn regions_that_keep_hair_farther_than_a_contact_may_are_refused() {
+    let bodies = vec![Body::head(&bust(), Contact { margin: 1.0, ..Contact::default() })];
+    let regions = |margin| vec![Region { margin, ..left() }];
+    let check =
+        |margin| FreeMotion { form: with(regions(margin)), bodies: bodies.clone(), ..Default::default() }.check(9);
+    assert_eq!(check(5.0), Ok(()));
+    let line = check(6.0).unwrap_err().to_string();
+    assert!(
+        line.starts_with("free.regions[0].margin = 6: ") && line.contains("multiply contact.margin to 6 cm"),
+        "{line}"
+    );
+}
+
 /// The region is of the place of a root, so a few strands move as they do among all.
 #[test]
 fn a_subset_moves_as_it_does_within_the_whole() {
@@ -133,8 +217,13 @@ fn members_move_as_a_place_of_their_weights() {
 fn the_twins_agree_on_regions() {
     let (strands, wind) = (hair(96, 18), wind());
     let along = Region { to: Some(Vec3::new(0.0, 11.0, -9.0)), within: 3.0, soft: 5.0, wind: 1.5, ..left() };
-    let dynamics =
-        free(with(vec![Region { hold: 3.0.into(), stiffness: 1.7.into(), drag: 0.3.into(), ..left() }, along]));
+    let fields = vec![share("turbulence", 0.3), share("wind", 1.2)];
+    let regions = vec![
+        Region { hold: 3.0.into(), stiffness: 1.7.into(), drag: 0.3.into(), gravity: 0.4, ..left() },
+        Region { fields, gravity: 1.5, ..along },
+    ];
+    let dynamics = free(with(regions));
+    let wind = both(Arc::new(wind), swirls());
     let apart = twins_apart(&strands, &dynamics, &wind, 100);
     let most = apart.len() - 1;
     assert!(apart[most - apart.len() / 1000] < 1e-3 && apart[most] < 1e-2, "{:e}", apart[most]);

@@ -159,7 +159,7 @@ fn hair_stays_out_of_the_head_without_kinks_and_comes_back_to_rest() {
     };
     let mut dynamics = free(FreeMotion { form, bodies: vec![body.clone()], ..Default::default() });
     dynamics.motion.inertia_length_floor = 18.0;
-    let kept: Vec<(Surface, f32)> = strands.points().iter().map(|p| body.kept_from(*p)).collect();
+    let kept: Vec<(Surface, f32)> = strands.points().iter().map(|p| body.kept_from(*p, 1.0)).collect();
     let blows = field(&[(25, [-200.0, 0.0, 0.0]), (50, [60.0, 50.0, 180.0]), (1000, [0.0; 3])]);
     let mut stepper = fast(&strands, &dynamics, &blows);
     let (mut deepest, mut sharpest, mut farthest) = (0.0_f32, 1.0_f32, 0.0_f32);

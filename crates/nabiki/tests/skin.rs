@@ -340,7 +340,7 @@ fn on_its_own(at: impl Fn(Vec3, u32) -> Vec3 + Copy, drag: f32, substeps: u32) -
 /// How deep nodes are in a body in a frame, more than at rest (cm): the deepest.
 fn deepest(body: &Body, rest: &Strands, now: &Strands, frame: u32) -> f32 {
     let depths = rest.points().iter().zip(now.points()).map(|(at_rest, p)| {
-        let (_, clearance) = body.kept_from(*at_rest);
+        let (_, clearance) = body.kept_from(*at_rest, 1.0);
         body.shape.obstacle().read(*p, frame).map_or(0.0, |at| clearance.min(0.0) - at.distance)
     });
     depths.fold(0.0, f32::max)

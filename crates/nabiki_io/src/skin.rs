@@ -40,6 +40,13 @@ pub fn bends(path: &Path, groups: &[String], clip: &str) -> Result<bool> {
     Ok(false)
 }
 
+/// Whether the joints of a skin move against each other. `movers`: for each joint the moved nodes that carry it, which are itself and
+/// those above it. Joints that the same nodes carry go as a whole.
+pub(crate) fn move_apart(mut movers: impl Iterator<Item = Vec<usize>>) -> bool {
+    let first = movers.next();
+    movers.any(|movers| first.as_ref() != Some(&movers))
+}
+
 /// Whether the distances between points of a cache change, by more than their rounding. Some of them tell.
 fn points_bend(path: &Path) -> Result<bool> {
     const SOME: usize = 500;

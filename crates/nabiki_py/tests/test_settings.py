@@ -48,6 +48,7 @@ map = "m.png"
 painted = [[8, 4, 0, 1]]
 near = [8, 4, 0]
 to = [8, 4, 1]
+fields = [{{ field = "turbulence", share = 0.5 }}]
 [motion]
 form = "free"
 [hair.style.ponytail]

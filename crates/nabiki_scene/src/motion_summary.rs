@@ -167,16 +167,21 @@ impl MotionSummary {
     }
 }
 
+/// With two digits; a share that rounds to nothing is not nothing.
+fn percent(share: f64) -> String {
+    if share > 0.0 && share < 5e-5 { "under 0.01 %".to_owned() } else { format!("{:.2} %", 100.0 * share) }
+}
+
 impl fmt::Display for MotionSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { rest, worst, deepest, most_kinked, farthest_jump, farthest_hop, last, met, blamed, .. } = self;
         write!(
             f,
-            "  inside  {:.2} % of the nodes are inside {met} at frame {} ({:.2} % at rest, at most {:.2} % at frame {})",
-            100.0 * last.inside,
+            "  inside  {} of the nodes are inside {met} at frame {} ({} at rest, at most {} at frame {})",
+            percent(last.inside),
             last.frame,
-            100.0 * rest.inside,
-            100.0 * worst.inside,
+            percent(rest.inside),
+            percent(worst.inside),
             worst.frame,
         )?;
         if deepest.depth > 0.0 {

@@ -40,13 +40,14 @@ fn regions_are_told_with_their_place_and_factors() {
     let scene = folder.path().join("scene.toml");
     let text = "[motion]\nform = \"free\"\n[[free.regions]]\nname = \"fringe\"\nnear = [5.5, 8.6, -5]\nto = [5.5, 8.6, 5]\n\
                 hold = 3\nwind = 0.5\n[[free.regions]]\nnear = [1, 2, 3]\nwithin = 1\n[[free.regions]]\n\
-                groups = [\"top\", \"back\"]\nattribute = \"painted\"\ndrag = 2\n";
+                groups = [\"top\", \"back\"]\nattribute = \"painted\"\ndrag = 2\ngravity = 0.5\n\
+                fields = [{ field = \"fan[0]\", share = 0.3 }]\n[[fan]]\nposition = [30, 0, 0]\ndirection = [-1, 0, 0]\n";
     std::fs::write(&scene, text).unwrap();
     let said = info(&scene).unwrap().to_string();
     for line in [
         "free.regions[0]: fringe, roots within 4 to 6 cm of the line from (5.5, 8.6, -5) to (5.5, 8.6, 5): hold x 3, wind x 0.5",
         "free.regions[1]: roots within 1 to 3 cm of (1, 2, 3): no change",
-        "free.regions[2]: groups top and back, attribute painted: drag x 2",
+        "free.regions[2]: groups top and back, attribute painted: drag x 2, gravity x 0.5, fan[0] x 0.3",
     ] {
         assert!(said.lines().any(|said| said == line), "{line}: {said}");
     }

@@ -46,6 +46,26 @@ fn grown_hair_belongs_to_regions_by_its_groups() {
     }
 }
 
+/// The fields of a scene have names that a region may use, and no other name is taken.
+#[test]
+fn a_region_feels_a_share_of_single_fields() {
+    let scene = |field: &str| {
+        let text = format!(
+            "[motion]\nform = \"free\"\nframes = 9\n[hair]\nstrands = 8\n[[force]]\nthrough = 3\nvector = [-40, 0, 0]\n\
+             [turbulence]\n[[fan]]\nposition = [30, 0, 0]\ndirection = [-1, 0, 0]\n[[free.regions]]\nnear = [0, 0, 0]\n\
+             within = 100\nfields = [{{ field = {field:?}, share = 0.25 }}]"
+        );
+        Scene::parse(&text, Path::new("s.toml"), &[]).unwrap().build(Shown::All).unwrap()
+    };
+    for field in ["wind", "turbulence", "fan[0]"] {
+        scene(field).timeline().unwrap();
+    }
+    let refused = scene("fan[1]").timeline().err().unwrap().to_string();
+    let line =
+        "free.regions[0].fields[0].field = \"fan[1]\": there is no such field; there is wind, turbulence, fan[0]";
+    assert!(refused.contains(line), "{refused}");
+}
+
 #[test]
 fn a_group_that_a_preview_does_not_show_is_still_a_group() {
     let text = "[motion]\nform = \"free\"\n[hair]\nstrands = 300\n[[free.regions]]\ngroups = [\"fringe\"]\n[[force]]\n\

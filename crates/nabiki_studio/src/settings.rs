@@ -211,6 +211,8 @@ pub enum Kind {
     Unit,
     /// Frames and parts of a strength.
     Envelope,
+    /// Fields of the scene and factors on them.
+    Shares,
     /// What a tool of the view draws, so many of these: it is counted, and can be removed.
     Drawn(&'static str),
 }

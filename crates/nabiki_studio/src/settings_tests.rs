@@ -17,7 +17,7 @@ fn scenes() -> Vec<Scene> {
          [[vortex]]\nposition = [0, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
          [[point]]\nposition = [0, 0, 0]\nenvelope = [{{ frame = 1, factor = 1.0 }}]\n\
          [free]\nsubsteps = 3\ntie = {{ at = [0, 0, 0], within = 1.0 }}\nvariation = {{ size = 2.0 }}\n[motion]\nform = \"free\"\n\
-         [[free.regions]]\nname = \"fringe\"\ngroups = [\"top\"]\nattribute = \"painted\"\nvalues = [1]\nmap = \"m.png\"\npainted = [[8, 4, 0, 1]]\nnear = [8, 4, 0]\nto = [8, 4, 1]\n[hair.style.ponytail]\nat = [-12, 0, 0]\n[[hair.style.cuts]]\npoint = [0, 0, 0]\nnormal = [0, -1, 0]\nregion = \"top\"\n\
+         [[free.regions]]\nname = \"fringe\"\ngroups = [\"top\"]\nattribute = \"painted\"\nvalues = [1]\nmap = \"m.png\"\npainted = [[8, 4, 0, 1]]\nnear = [8, 4, 0]\nto = [8, 4, 1]\nfields = [{{ field = \"turbulence\", share = 0.5 }}]\n[hair.style.ponytail]\nat = [-12, 0, 0]\n[[hair.style.cuts]]\npoint = [0, 0, 0]\nnormal = [0, -1, 0]\nregion = \"top\"\n\
          [[aim]]\nregion = \"fringe\"\nfile = \"p.usda\"\nframe = 4\nthrough = 9\n[[aim]]\ntoward = [1, 2, 3]\n[[aim]]\ncurves = [[[8, 4, 0], [9, 4, 0]]]\n\
          [[body]]\nmesh = \"b.obj\"\n{lie}motion = {motion}\n\
          [picture.camera]\ndistance = 1.0\nheight = 1.0\ntarget = [0, 0, 0]\nf_stop = 2.0\nfocus_distance = 1.0\n\

@@ -4,7 +4,7 @@ use glam::{Mat3, Vec3};
 
 use super::row::{LANES, PointRow, Row, rotate};
 use super::{ForceSpace, FrameInput};
-use crate::field::Field;
+use crate::field::{Field, VectorRow};
 
 /// A field in one frame.
 #[derive(Clone, Copy, Debug)]
@@ -39,9 +39,20 @@ impl<'a> FieldFrame<'a> {
     }
 
     /// The forces at sixteen points, both in head space.
-    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
     #[inline(always)]
     pub fn at_row(&self, points: &PointRow) -> PointRow {
+        self.by_row(points, |there, force| self.field.at_row(there, self.frame, force))
+    }
+
+    /// The same on strands with these shares in the parts of the field.
+    #[inline(never)]
+    pub fn at_row_shared(&self, points: &PointRow, share: &dyn Fn(&str) -> Option<[f32; LANES]>) -> PointRow {
+        self.by_row(points, |there, force| self.field.at_row_shared(there, self.frame, share, force))
+    }
+
+    #[allow(clippy::needless_range_loop, reason = "a loop over lanes, as in the kernels")]
+    #[inline(always)]
+    fn by_row(&self, points: &PointRow, at: impl Fn(&VectorRow, &mut VectorRow)) -> PointRow {
         let mut there = [[0.0; LANES]; 3];
         for lane in 0..LANES {
             let [x, y, z] = rotate(&self.field_from_head, [points[0].0[lane], points[1].0[lane], points[2].0[lane]]);
@@ -50,7 +61,7 @@ impl<'a> FieldFrame<'a> {
             there[2][lane] = z + self.head_origin[2];
         }
         let mut force = [[0.0; LANES]; 3];
-        self.field.at_row(&there, self.frame, &mut force);
+        at(&there, &mut force);
         let mut in_head = [Row::default(); 3];
         for lane in 0..LANES {
             let [x, y, z] = rotate(&self.head_from_field, [force[0][lane], force[1][lane], force[2][lane]]);

@@ -25,9 +25,14 @@ impl Form {
     fn multiplies(&self, root: Vec3) -> Option<String> {
         let Self::Free(free) = self else { return None };
         let regions = free.form.regions.iter().enumerate();
-        let felt = regions.filter(|&(i, region)| region.wind > 1.0 && free.weight_in(i, root) > 0.0);
-        let (i, most) = felt.max_by(|a, b| a.1.wind.total_cmp(&b.1.wind))?;
-        Some(format!("free.regions[{i}].wind = {}", most.wind))
+        let felt = regions.filter(|&(i, region)| region.most_force() > 1.0 && free.weight_in(i, root) > 0.0);
+        let (i, most) = felt.max_by(|a, b| a.1.most_force().total_cmp(&b.1.most_force()))?;
+        let key = format!("free.regions[{i}]");
+        let share = most.fields.iter().enumerate().max_by(|a, b| a.1.share.total_cmp(&b.1.share));
+        match share {
+            Some((j, of)) if of.share > most.wind => Some(format!("{key}.fields[{j}].share = {}", of.share)),
+            _ => Some(format!("{key}.wind = {}", most.wind)),
+        }
     }
 
     /// Every segment of strand number `s`.

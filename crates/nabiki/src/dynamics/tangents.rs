@@ -14,8 +14,9 @@ use super::paper::{self, PolarAxis};
 use super::standing::{self, Moved, Standing, Standings};
 use super::{ForceSpace, Form, FrameInput};
 use crate::error::SettingError;
-use crate::field::{Field, ROW, VectorRow};
+use crate::field::{Field, ROW, VectorRow, WIND};
 use crate::free_form::{FreeMotion, Neighbours};
+use crate::region::FieldShares;
 use crate::scalar::{Dual, Scalar, Vector};
 
 /// A point that is wanted in a frame.
@@ -385,7 +386,7 @@ impl<'a, const N: usize> Gale<'a, N> {
 
     /// The force at a point, if it varies in space.
     #[inline(never)]
-    fn at(&self, at: Vector<Dual<N>>) -> Vector<Dual<N>> {
+    fn at(&self, at: Vector<Dual<N>>, shares: &FieldShares) -> Vector<Dual<N>> {
         let point = (self.rotation * at.value() + self.position).as_vec3();
         let mut points = VectorRow::default();
         for axis in 0..3 {
@@ -394,7 +395,13 @@ impl<'a, const N: usize> Gale<'a, N> {
             points[axis][2 + 2 * axis] -= STEP_CM;
         }
         let mut forces = VectorRow::default();
-        self.field.at_row(&points, self.frame, &mut forces);
+        match shares.is_empty() {
+            true => self.field.at_row(&points, self.frame, &mut forces),
+            false => {
+                let share = |name: &str| Some([shares.of(name); ROW]);
+                self.field.at_row_shared(&points, self.frame, &share, &mut forces);
+            }
+        }
         let force = |i: usize| DVec3::new(forces[0][i].into(), forces[1][i].into(), forces[2][i].into());
         let slope = |axis: usize| {
             let [ahead, behind] = [1 + 2 * axis, 2 + 2 * axis];
@@ -406,17 +413,20 @@ impl<'a, const N: usize> Gale<'a, N> {
         let moved = Dual::known_vector(value, at, || head_from_field * in_field * head_from_field.transpose());
         let Some(wind) = &self.wind else { return moved };
         let [x, y, z] = [0, 1, 2].map(|i| self.of_wind[i].at(point, self.frame).as_dvec3());
-        let matrix = head_from_field * DMat3::from_cols(x, y, z);
+        // In a field without parts, the wind has no share of its own.
+        let named = self.field.parts().iter().any(|name| name == WIND);
+        let share = if named { f64::from(shares.of(WIND)) } else { 1.0 };
+        let matrix = share * head_from_field * DMat3::from_cols(x, y, z);
         moved + with_tangents(DVec3::ZERO, &wind.map(|wind| matrix * wind))
     }
 }
 
 impl<const N: usize> Air<Dual<N>> for Gale<'_, N> {
     #[inline(always)]
-    fn force(&self, at: Vector<Dual<N>>) -> Vector<Dual<N>> {
+    fn force(&self, at: Vector<Dual<N>>, shares: &FieldShares) -> Vector<Dual<N>> {
         match self.uniform {
-            Some(force) => force,
-            None => self.at(at),
+            Some(force) if shares.is_empty() => force,
+            _ => self.at(at, shares),
         }
     }
 }

@@ -6,16 +6,27 @@ use glam::Vec3;
 
 use super::{Field, ROW, VectorRow};
 
+/// Name of the part of a sum that is the wind: the one that a solver changes.
+pub const WIND: &str = "wind";
+
 /// The sum of fields, added in order. Without fields there is no force.
 #[derive(Clone, Debug, Default)]
 pub struct FieldSum {
     parts: Vec<Arc<dyn Field>>,
+    /// Of the parts; none if they have no names.
+    names: Vec<String>,
 }
 
 impl FieldSum {
     /// The sum of `parts`.
     pub fn new(parts: Vec<Arc<dyn Field>>) -> Self {
-        Self { parts }
+        Self { parts, names: Vec::new() }
+    }
+
+    /// The sum of parts with names, which hair may feel more or less of.
+    pub fn named(parts: Vec<(String, Arc<dyn Field>)>) -> Self {
+        let (names, parts) = parts.into_iter().unzip();
+        Self { parts, names }
     }
 }
 
@@ -54,6 +65,46 @@ impl Field for FieldSum {
             for (sum, part) in forces.iter_mut().zip(&of_part) {
                 for i in 0..ROW {
                     sum[i] += part[i];
+                }
+            }
+        }
+    }
+
+    fn parts(&self) -> &[String] {
+        &self.names
+    }
+
+    fn at_shared(&self, point: Vec3, frame: u32, share: &dyn Fn(&str) -> f32) -> Vec3 {
+        if self.names.is_empty() {
+            return self.at(point, frame);
+        }
+        let parts = self.parts.iter().zip(&self.names);
+        parts.map(|(part, name)| share(name) * part.at(point, frame)).reduce(|sum, part| sum + part).unwrap_or_default()
+    }
+
+    fn at_row_shared(
+        &self,
+        points: &VectorRow,
+        frame: u32,
+        share: &dyn Fn(&str) -> Option<[f32; ROW]>,
+        forces: &mut VectorRow,
+    ) {
+        if self.names.is_empty() {
+            return self.at_row(points, frame, forces);
+        }
+        *forces = VectorRow::default();
+        let mut of_part = VectorRow::default();
+        for (n, (part, name)) in self.parts.iter().zip(&self.names).enumerate() {
+            part.at_row(points, frame, &mut of_part);
+            if let Some(share) = share(name) {
+                of_part
+                    .iter_mut()
+                    .for_each(|axis| axis.iter_mut().zip(share).for_each(|(force, share)| *force *= share));
+            }
+            for (sum, part) in forces.iter_mut().zip(&of_part) {
+                for i in 0..ROW {
+                    // The first one as it is: a sum from 0 on would lose the sign of -0.
+                    sum[i] = if n == 0 { part[i] } else { sum[i] + part[i] };
                 }
             }
         }

@@ -14,10 +14,11 @@ use crate::dynamics::{
     Timeline, tangents,
 };
 use crate::field::{
-    Ease, Field, FieldSum, Flow, FlowField, Gust, Keyframe, KeyframedField, Turbulence, TurbulenceField,
+    Ease, Field, FieldSum, Flow, FlowField, Gust, Keyframe, KeyframedField, Turbulence, TurbulenceField, WIND,
 };
 use crate::free_form::{FreeForm, FreeMotion, NeighbourForces, Neighbours};
 use crate::pseudo_force::PseudoForce;
+use crate::region::{FieldShare, Region};
 use crate::{Head, Pose, Profile, Strands, bust};
 
 const STRANDS: usize = 24;
@@ -258,6 +259,17 @@ fn tangents_are_what_differences_of_the_specification_say() {
     let none_of = Vec::<Body>::new;
     let (none, nods) = (Vec::new, nodding());
     let vectors = [Unknown::Vector(0), Unknown::Vector(1)];
+    // Hair that feels the wind in part, and heavier hair.
+    let mut shared = free(none_of(), None, &[]);
+    if let Form::Free(free) = &mut shared {
+        let share = |field: &str, share| FieldShare { field: field.to_owned(), share };
+        let fields = vec![share(WIND, 0.4), share("turbulence", 0.7)];
+        let near = Some(head.ellipsoid.center);
+        free.form.regions = vec![Region { near, within: 50.0, gravity: 1.5, fields, ..Region::default() }];
+    }
+    let in_parts = |wind: Arc<dyn Field>| -> Arc<dyn Field> {
+        Arc::new(FieldSum::named(vec![(WIND.to_owned(), flow(wind)), ("turbulence".to_owned(), swirls.clone())]))
+    };
     let mut cases = [
         case("paper", Form::Paper, none(), Ease::Stepped, true, &OF_WIND, &plain as Made, &plain as Made),
         case("paper, nodding", Form::Paper, nodding(), Ease::Smooth, true, &OF_WIND, &plain, &plain),
@@ -276,6 +288,7 @@ fn tangents_are_what_differences_of_the_specification_say() {
             &plain,
             &plain,
         ),
+        case("free, shares, flow", shared, none(), Ease::Stepped, true, &vectors, &in_parts, &flow),
         case("free, head", free(bodies(), None, &[]), none(), Ease::Stepped, false, &all, &plain, &plain),
         case("free, head nodding", free(bodies(), None, &nods), nodding(), Ease::Stepped, false, &all, &plain, &plain),
     ];

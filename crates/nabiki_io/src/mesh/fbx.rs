@@ -15,6 +15,7 @@ use super::{TRIANGLE_BYTES, VERTEX_BYTES, push_fan};
 use crate::error::{Error, Result};
 use crate::fbx_file::document::{Moved, name, number, vector};
 use crate::fbx_file::{Document, Outline, affine};
+use crate::skin::move_apart;
 use skin::{Bent, Skin};
 
 /// Polygons of more corners are cut as fans: to cut off their ears takes the square of that number.
@@ -116,10 +117,8 @@ pub(crate) fn bends(bytes: &[u8], groups: &[String], clip: &str) -> Result<bool>
         let mut shapes = mesh.blend_deformers.as_ref().iter().flat_map(|blend| &blend.channels);
         let clusters = mesh.skin_deformers.as_ref().first().map_or(&[][..], |skin| skin.clusters.as_ref());
         let joints = clusters.iter().filter_map(|cluster| cluster.bone_node.as_ref());
-        let mut movers = joints.map(|joint| movers_of(joint, &moved.nodes));
-        let first = movers.next();
         shapes.any(|shape| moved.shapes[shape.element.typed_id as usize])
-            || movers.any(|movers| first.as_ref() != Some(&movers))
+            || move_apart(joints.map(|joint| movers_of(joint, &moved.nodes)))
     }))
 }
 

@@ -15,6 +15,7 @@ use crate::error::{Error, Result};
 use crate::gltf_file::accessors::{Whole, numbers, whole_numbers};
 use crate::gltf_file::{Buffers, open, pose};
 use crate::motion::Clip;
+use crate::skin::move_apart;
 use skin::Skin;
 
 /// The triangles, and what of the meshes is left out or not obeyed, a phrase each. `folder`: where buffers in files of their own
@@ -144,21 +145,28 @@ pub(crate) fn each_bent(
     Ok(())
 }
 
-/// Whether an animation bends the meshes: morphs, or more than one joint of a skin.
+/// Whether an animation bends the meshes: morphs, or joints of a skin that move against each other.
 pub(crate) fn bends(bytes: &[u8], folder: Option<&Path>, groups: &[String], clip: &str) -> Result<bool> {
     let (document, blob) = open(bytes)?;
     let buffers = Buffers::new(&document, bytes, blob, folder)?;
-    let (mut nodes, mut joints) = (Vec::new(), Vec::new());
+    let parents = pose::parents(&document)?;
+    let (mut nodes, mut skins) = (Vec::new(), Vec::new());
     each_part(&document, &buffers, groups, None, &mut |part| {
         nodes.push(part.node.index());
         let skin = part.node.skin().filter(|_| part.carriers.is_some());
-        let of_skin: Vec<usize> = skin.iter().flat_map(|skin| skin.joints().map(|joint| joint.index())).collect();
-        // One joint carries a mesh as a whole.
-        joints.extend(of_skin.iter().filter(|_| of_skin.len() > 1));
+        skins.extend(skin.map(|skin| skin.joints().map(|joint| above(joint.index(), &parents)).collect::<Vec<_>>()));
         Ok(())
     })?;
-    let clip = Clip::read(&document, &buffers, clip, &|node| nodes.contains(&node) || joints.contains(&node))?;
-    Ok(nodes.iter().any(|&node| clip.morphs(node)) || clip.moves(joints))
+    let carries = |node| skins.iter().flatten().any(|joint: &Vec<usize>| joint.contains(&node));
+    let clip = Clip::read(&document, &buffers, clip, &|node| nodes.contains(&node) || carries(node))?;
+    let movers = |joint: &Vec<usize>| joint.iter().copied().filter(|&node| clip.moves([node])).collect();
+    Ok(nodes.iter().any(|&node| clip.morphs(node)) || skins.iter().any(|skin| move_apart(skin.iter().map(movers))))
+}
+
+/// A node and those above it.
+fn above(node: usize, parents: &[Option<usize>]) -> Vec<usize> {
+    // Of a tree no way up is longer than all its nodes: in a ring it ends there.
+    std::iter::successors(Some(node), |&node| parents[node]).take(parents.len()).collect()
 }
 
 /// Goes through what the default scene shows, or of it what `groups` name: in the still pose, or as an animation has it.

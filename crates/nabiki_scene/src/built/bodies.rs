@@ -154,7 +154,7 @@ impl BuiltBody {
             }
             None => {
                 let (within, of) = (reach.in_space_of(&self.way), (&self.mesh, &self.frames[..]));
-                Shape::Other(self.bending.of(skin, of, within, settings.margin)?)
+                Shape::Other(self.bending.of(skin, of, within, settings.margin * reach.times)?)
             }
         };
         Ok(Some(Body::new(name, shape, self.way.clone(), settings.contact())))
@@ -167,16 +167,18 @@ pub(super) struct Reach<'a> {
     radius: f32,
     poses: &'a [Pose],
     last: u32,
+    /// The most that a strand multiplies the margin of a contact by.
+    times: f32,
 }
 
 impl<'a> Reach<'a> {
-    pub fn of(groom: &Groom, skin: Option<&Skin>, poses: &'a [Pose], last: u32) -> Self {
+    pub fn of(groom: &Groom, skin: Option<&Skin>, poses: &'a [Pose], last: u32, times: f32) -> Self {
         let roots = |strands: &Strands| strands.iter().map(|strand| strand[0]).collect::<Vec<_>>();
         let all = [&groom.hair.strands, &groom.first];
         let moved = skin.and_then(Skin::bounds).into_iter().flatten();
         let [low, high] = bounds(&all.map(roots).concat().into_iter().chain(moved).collect::<Vec<_>>());
         let longest = all.into_iter().flat_map(Strands::lengths).fold(0.0, f32::max);
-        Self { center: 0.5 * (low + high), radius: 0.5 * low.distance(high) + longest, poses, last }
+        Self { center: 0.5 * (low + high), radius: 0.5 * low.distance(high) + longest, poses, last, times }
     }
 
     /// The box about it in the space of a body, for all frames.

@@ -71,8 +71,8 @@ pub(super) fn set_free<'a>(
     known: impl Iterator<Item = &'a Arc<BuiltBody>> + Clone,
     at: At<'_>,
 ) -> Result<Vec<Arc<BuiltBody>>> {
-    let head = bent.body(scene.contact)?.unwrap_or_else(|| model.body(scene.contact));
-    let reach = Reach::of(groom, dynamics.skin.as_deref(), &way.poses, scene.motion.frames);
+    let head = bent.body(scene.contact, form.most_margin())?.unwrap_or_else(|| model.body(scene.contact));
+    let reach = Reach::of(groom, dynamics.skin.as_deref(), &way.poses, scene.motion.frames, form.most_margin());
     let (mut felt, mut bodies) = (vec![head], Vec::new());
     for (i, settings) in scene.bodies.iter().enumerate() {
         // All hair is grown at this point.

@@ -107,8 +107,8 @@ impl Bent {
         self.inputs.way.of_mesh().map(|(files, ..)| files.motion).filter(|_| !self.frames.is_empty())
     }
 
-    /// The head as a body that bends; `None` for one that does not.
-    pub(super) fn body(&self, contact: Contact) -> Result<Option<Body>> {
+    /// The head as a body that bends; `None` for one that does not. `times`: the most that a strand multiplies the margin by.
+    pub(super) fn body(&self, contact: Contact, times: f32) -> Result<Option<Body>> {
         if self.frames.is_empty() {
             return Ok(None);
         }
@@ -117,7 +117,7 @@ impl Bent {
         let (center, half) = (head.ellipsoid.center, head.ellipsoid.half_axes.max_element());
         let within = [center - 4.0 * half, center + 4.0 * half];
         let rest = || Ok(head.skin().clone());
-        let skin = self.body.of(rest, (&head.mesh, &self.frames), within, contact.margin)?;
+        let skin = self.body.of(rest, (&head.mesh, &self.frames), within, contact.margin * times)?;
         Ok(Some(Body::new("contact", Shape::Other(skin), BodyWay::WithHead, contact)))
     }
 }

@@ -298,21 +298,24 @@ fn region_in_words(region: &Region) -> String {
         };
         strands.push(format!("roots within {inner} to {outer} cm of {place}"));
     }
-    let wind = Profile::Even(region.wind);
+    let [wind, gravity, margin] = [region.wind, region.gravity, region.margin].map(Profile::Even);
     let factors = [
         ("stiffness", &region.stiffness),
         ("hold", &region.hold),
         ("settle", &region.settle),
         ("wind", &wind),
         ("drag", &region.drag),
+        ("gravity", &gravity),
+        ("margin", &margin),
     ];
     let along = |factor: &Profile| {
         let values: Vec<String> = factor.values().iter().map(|&value| Short(value).to_string()).collect();
         values.join(" to ")
     };
-    let told: Vec<String> = (factors.into_iter().filter(|&(_, factor)| *factor != Profile::Even(1.0)))
+    let mut told: Vec<String> = (factors.into_iter().filter(|&(_, factor)| *factor != Profile::Even(1.0)))
         .map(|(key, factor)| format!("{key} x {}", along(factor)))
         .collect();
+    told.extend(region.fields.iter().map(|of| format!("{} x {}", of.field, Short(of.share))));
     let told = if told.is_empty() { "no change".to_owned() } else { told.join(", ") };
     format!("{name}{}: {told}", strands.join(", "))
 }

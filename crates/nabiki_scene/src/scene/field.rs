@@ -7,7 +7,7 @@ use glam::Vec3;
 use nabiki::dynamics::ForceSpace;
 use nabiki::field::{
     BodyWind, BodyWindField, Ease, Fan, FanField, Field, FieldSum, Flow, FlowField, Gust, GustField, Keyframe,
-    KeyframedField, Point, PointField, Turbulence, TurbulenceField, Vortex, VortexField, Wind,
+    KeyframedField, Point, PointField, Turbulence, TurbulenceField, Vortex, VortexField, WIND, Wind,
 };
 use nabiki::{Ellipsoid, Pose, SettingError};
 use serde::{Deserialize, Serialize};
@@ -207,11 +207,11 @@ impl FieldSettings {
             ForceSpace::World => &place.poses[..],
             ForceSpace::Head => &[],
         };
-        let mut parts = vec![wind.clone()];
+        let mut parts = vec![(WIND.to_owned(), wind.clone())];
         if let Some(flow) = &self.flow {
             let flow = FlowField::new(flow, wind.clone(), place.ellipsoid, poses)?;
             bound("flow".to_owned(), flow.largest_part());
-            parts = vec![Arc::new(flow)];
+            parts = vec![(WIND.to_owned(), Arc::new(flow))];
         }
         if self.force.is_empty() && self.body_wind.is_none() && instead.is_none() {
             parts.clear();
@@ -220,11 +220,11 @@ impl FieldSettings {
             let drift: Vec<Vec3> = (0..=place.frames).filter_map(|n| wind.uniform(n)).collect();
             let turbulence = TurbulenceField::new(turbulence, place.ellipsoid, poses, &drift)?;
             bound("turbulence".to_owned(), turbulence.strongest());
-            parts.push(Arc::new(turbulence));
+            parts.push(("turbulence".to_owned(), Arc::new(turbulence)));
         }
         let mut local = |name: String, field: Arc<dyn Field>| {
-            bound(name, field.strongest());
-            parts.push(field);
+            bound(name.clone(), field.strongest());
+            parts.push((name, field));
         };
         for (i, settings) in self.point.iter().enumerate() {
             let name = format!("point[{i}]");
@@ -241,7 +241,7 @@ impl FieldSettings {
         for (i, OwnField(field)) in self.own.iter().enumerate() {
             local(format!("own[{i}]"), field.clone());
         }
-        Ok(FieldParts { field: sum(parts), wind, bounds })
+        Ok(FieldParts { field: Arc::new(FieldSum::named(parts)), wind, bounds })
     }
 
     /// The tables, for writing.

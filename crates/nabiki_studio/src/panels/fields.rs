@@ -1,6 +1,7 @@
 //! One setting as a field.
 
 mod amounts;
+mod lists;
 mod values;
 
 use eframe::egui::{self, Response, Ui};
@@ -234,6 +235,7 @@ impl Field<'_> {
                 });
             }
             Kind::Envelope => self.envelope(ui, value, commands),
+            Kind::Shares => self.shares(ui, value, commands),
             Kind::Drawn(one) => {
                 let count = value.and_then(Value::as_array).map_or(0, Vec::len);
                 let words = match count {
@@ -445,52 +447,6 @@ impl Field<'_> {
         } else if response.has_focus() {
             ui.data_mut(|data| data.insert_temp(id, text));
         }
-    }
-
-    fn envelope(&self, ui: &mut Ui, value: Option<&Value>, commands: &mut Commands) {
-        let keys: Vec<Table> =
-            value.and_then(Value::as_array).into_iter().flatten().filter_map(|key| key.as_table().cloned()).collect();
-        let wrap = |keys: &[Table]| Value::Array(keys.iter().cloned().map(Value::Table).collect());
-        ui.vertical(|ui| {
-            for i in 0..keys.len() {
-                ui.horizontal(|ui| {
-                    let mut frame = keys[i].get("frame").and_then(number_of).unwrap_or_default();
-                    let mut factor = keys[i].get("factor").and_then(number_of).unwrap_or_default();
-                    let changed = |frame: f64, factor: f64| {
-                        let mut keys = keys.clone();
-                        keys[i].insert("frame".to_owned(), (frame as i64).into());
-                        keys[i].insert("factor".to_owned(), factor.into());
-                        wrap(&keys)
-                    };
-                    let low = i.checked_sub(1).and_then(|i| keys[i].get("frame")?.as_integer()).map_or(0, |n| n + 1);
-                    let high = keys
-                        .get(i + 1)
-                        .and_then(|key| key.get("frame")?.as_integer())
-                        .map_or(i64::from(u32::MAX), |n| n - 1);
-                    let what = ["frame", "factor"].map(|part| format!("{}[{i}].{part}", self.key));
-                    let field = Number { before: "frame ", decimals: 0, ..Number::of(&what[0]) };
-                    let field = Number { range: low as f64..=high as f64, ..field };
-                    let response = field.ui(ui, &mut frame, commands);
-                    self.sent(&response, commands, changed(frame, factor));
-                    let field = Number { step: 0.01, ..Number::of(&what[1]) };
-                    let response = field.ui(ui, &mut factor, commands).hint("Factor on the strength.");
-                    self.sent(&response, commands, changed(frame, factor));
-                    if ui.small_button("x").clicked() {
-                        let mut keys = keys.clone();
-                        keys.remove(i);
-                        self.set(commands, Some(wrap(&keys)), Phase::Done);
-                    }
-                });
-            }
-            if ui.small_button("+ key").clicked() {
-                let after = keys.last().and_then(|key| key.get("frame")?.as_integer()).map_or(0, |n| n + 10);
-                let mut keys = keys.clone();
-                keys.push(
-                    [("frame".to_owned(), after.into()), ("factor".to_owned(), 1.0.into())].into_iter().collect(),
-                );
-                self.set(commands, Some(wrap(&keys)), Phase::Done);
-            }
-        });
     }
 }
 

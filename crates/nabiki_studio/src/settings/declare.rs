@@ -32,6 +32,7 @@ fn kind(table: &str, key: &str, found: &declared::Setting) -> Kind {
         declared::Kind::Numbers(_) => Kind::Numbers { names: &["x", "y", "z"], step },
         declared::Kind::Wholes(_) => Kind::Wholes { names: &["w", "h"], least: least as i64, most: most as i64 },
         declared::Kind::List(declared::Kind::Text) => Kind::Texts,
+        declared::Kind::List(declared::Kind::Table(of)) if of.name == "FieldShare" => Kind::Shares,
         declared::Kind::List(declared::Kind::Table(_)) => Kind::Envelope,
         declared::Kind::List(declared::Kind::Numbers(_)) => Kind::Drawn("point"),
         declared::Kind::List(declared::Kind::List(_)) => Kind::Drawn("curve"),
@@ -64,7 +65,7 @@ fn units(kind: &declared::Kind) -> &'static [&'static str] {
 pub(super) fn is_table(kind: &declared::Kind) -> bool {
     match kind {
         declared::Kind::Table(_) => true,
-        declared::Kind::List(declared::Kind::Table(table)) => table.name != "EnvelopeKey",
+        declared::Kind::List(declared::Kind::Table(table)) => !matches!(table.name, "EnvelopeKey" | "FieldShare"),
         _ => false,
     }
 }

@@ -60,7 +60,10 @@ pub(super) const GROUPS: &[Group] = &[
             "hold",
             "settle",
             "wind",
+            "fields",
             "drag",
+            "gravity",
+            "margin",
         ],
     )
     .shaped(Shape::List(

@@ -134,13 +134,13 @@ fn skin(body: &Body, surface: Surface) -> Skin<'_> {
 
 impl PlacedBody {
     /// Body number `b` at the end of a step of a frame; `step` gives the step's number, from 1 on, and their count.
-    /// `hair`: a ball that hair does not leave (head space, cm).
+    /// A ball that hair does not leave (head space, cm), and the most that a strand multiplies the margin by.
     pub fn new(
         b: usize,
         body: &Body,
         input: &FrameInput,
         [step, steps]: [u32; 2],
-        (center, radius): (Vec3, f32),
+        (center, radius, times): (Vec3, f32, f32),
     ) -> Self {
         let [now, before] = input.head_from_body(b, body, [step, steps]);
         let part = 1.0 / steps as f32;
@@ -148,7 +148,7 @@ impl PlacedBody {
             frame: input.frame,
             static_friction: body.contact.static_friction,
             friction: body.contact.friction,
-            margin: body.contact.margin,
+            margin: body.contact.margin * times,
             body_from_head: now.inverse(),
             with_head: now == Affine3A::IDENTITY,
             before_from_now: before * now.inverse(),

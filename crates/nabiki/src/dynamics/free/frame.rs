@@ -11,7 +11,7 @@ use super::ride_row::{RideRow, at_rest_on};
 use super::solve::{answer, drive, pull_taut, slacken, solve, unwind};
 use super::work::{self, Work};
 use crate::dynamics::block::Block;
-use crate::dynamics::row::{LANES, PointRow, Row, set_lane};
+use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::sweep::Swept;
 use crate::prefetch::prefetch;
 use crate::vector::scale;
@@ -73,7 +73,7 @@ impl Packed {
         let mut ride = step.skin.map(|skin| RideRow::new(&skin, self.places(block), &self.anchors[number], step.steps));
         let h = 1.0 / step.steps as f32;
         let bodies = step.bodies.len() / step.steps as usize;
-        let carried = (bodies > 0).then_some(self.weight_at_rest);
+        let carried = (bodies > 0).then(|| self.weight_at_rest(number));
         for n in 1..=step.steps as usize {
             if let Some(ride) = &mut ride {
                 ride.go_to(n as u32, step.steps);
@@ -95,7 +95,7 @@ impl Packed {
                 led.lead(step.frame, from_rest, &mut room[..rows.len()]);
             }
             let aims = room.as_ref().map(|room| &room[..rows.len()]);
-            carry(states, rows, &of.roots(), from_rest, carried, work);
+            carry(states, rows, &of.roots(), from_rest, carried.as_ref(), work);
             untwist(work);
             bend(states, rows, from_rest, aims, work);
             let bodies = &step.bodies[(n - 1) * bodies..n * bodies];
@@ -122,13 +122,14 @@ impl Packed {
     #[inline(always)]
     fn drive_at_rest(&self, block: &Block, states: &mut [FreeState], work: &mut [Work]) {
         let (rows, first) = (&self.rows[block.rows()], block.rows().start);
+        let weight = self.weight_at_rest(block.first_strand as usize / LANES);
         carry(states, rows, &block.roots, None, None, work);
         untwist(work);
         bend(states, rows, None, None, work);
         for (i, (row, work)) in rows.iter().zip(&mut *work).enumerate() {
             work.drag = self.air(first + i).air;
             for lane in 0..LANES {
-                set_lane(&mut work.pushed, lane, scale(row.push.0[lane], self.weight_at_rest));
+                set_lane(&mut work.pushed, lane, scale(row.push.0[lane], lane_of(&weight, lane)));
             }
         }
         pull_taut::<false>(states, rows, work);

@@ -179,7 +179,7 @@ pub(super) fn carry(
     rows: &[FreeRow],
     roots: &PointRow,
     from_rest: Option<&FrameRow>,
-    weight: Option<[f32; 3]>,
+    weight: Option<&PointRow>,
     work: &mut [Work],
 ) {
     let (mut end, mut velocity, mut frame) = (*roots, ZERO, from_rest.copied().unwrap_or(FrameRow::AT_REST));
@@ -193,7 +193,7 @@ pub(super) fn carry(
             let mut of_rest = ZERO;
             for lane in 0..LANES {
                 let (u, s, over) = (lane_of(&frame.vector, lane), frame.scalar.0[lane], frame.over_length.0[lane]);
-                set_lane(&mut of_rest, lane, turned(u, s, over, weight));
+                set_lane(&mut of_rest, lane, turned(u, s, over, lane_of(weight, lane)));
             }
             work.weight = of_rest;
         }

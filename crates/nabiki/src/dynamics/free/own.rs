@@ -3,6 +3,7 @@
 use crate::dynamics::row::{LANES, PointRow, Row, lane as lane_of, set_lane};
 use crate::dynamics::trigonometry::sin_cos;
 use crate::locks::{Own, Wave};
+use crate::region::FieldShares;
 use crate::vector::{add, cross, scale};
 
 /// [`Own`] of every strand of a block.
@@ -52,6 +53,25 @@ impl OwnRow {
             set_lane(&mut wind.turn, lane, scale(flutter, turn));
         }
         wind
+    }
+}
+
+/// The shares of the strands of a block in the fields that regions name, field by field. 1 without a strand.
+#[derive(Clone, Debug)]
+pub(super) struct SharesRow(Vec<Row>);
+
+impl SharesRow {
+    pub fn of(strands: impl Iterator<Item = FieldShares>, fields: usize) -> Self {
+        let mut rows = vec![Row([1.0; LANES]); fields];
+        for (lane, shares) in strands.enumerate() {
+            rows.iter_mut().zip(shares.factors()).for_each(|(row, share)| row.0[lane] = share);
+        }
+        Self(rows)
+    }
+
+    /// In the field with this name, if it is one of those that regions name, in order.
+    pub fn in_field(&self, field: &str, shared: &[String]) -> Option<[f32; LANES]> {
+        shared.iter().zip(&self.0).find(|of| of.0 == field).map(|of| of.1.0)
     }
 }
 

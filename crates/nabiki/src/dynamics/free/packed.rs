@@ -9,7 +9,7 @@ use super::contact::PlacedBody;
 use super::grid::Crowd;
 use super::head_frame::{HeadFrame, HeadWay};
 use super::kernel::{AirRow, FreeRow, FreeState, ends};
-use super::own::OwnRow;
+use super::own::{OwnRow, SharesRow};
 use super::pulls::weight;
 use super::segment::{FreeSegment, free_segments};
 use crate::body::{Body, BodyWay, Surface};
@@ -24,9 +24,10 @@ use crate::dynamics::sweep::{Pages, sweep};
 use crate::dynamics::{Dynamics, FrameInput, VectorWidth};
 use crate::error::SettingError;
 use crate::field::Field;
-use crate::free_form::FreeMotion;
+use crate::free_form::{FreeForm, FreeMotion};
 use crate::skin::{SkinFrame, SkinPlace};
 use crate::strands::{Strands, bounds};
+use crate::vector::scale;
 
 /// A mesh feeds many numbers to the hash, and states are compared often: compute it only once.
 fn shapes(bodies: &[Body]) -> u64 {
@@ -53,6 +54,12 @@ pub(super) struct Packed {
     places: Vec<SkinPlace>,
     /// How strands modify the wind, block by block; empty if all are alike.
     own: Vec<OwnRow>,
+    /// Names of the fields that strands feel in shares of their own.
+    pub shared: Vec<String>,
+    /// These shares, block by block; empty if there are none.
+    shares: Vec<SharesRow>,
+    /// Factors on the weight, block by block; empty if it is that of the settings.
+    weights: Vec<Row>,
     /// The aims that lead strands, block by block; empty without aims.
     aimed: Vec<Option<AimedBlock>>,
     /// eps_i, where the scene has a pseudo-force.
@@ -62,8 +69,9 @@ pub(super) struct Packed {
     /// Identifies the shapes of the bodies.
     shapes: u64,
     pub at_rest: Vec<FreeState>,
-    pub weight_at_rest: [f32; 3],
+    weight_at_rest: [f32; 3],
     pub most_drag: f32,
+    most_margin: f32,
     /// A ball that hair does not leave (head space, cm), and the length of the longest strand.
     center: Vec3,
     radius: f32,
@@ -101,12 +109,16 @@ impl Packed {
             anchors: Vec::new(),
             places: Vec::new(),
             own: Vec::new(),
+            shared: free.form.shared().into_iter().map(str::to_owned).collect(),
+            shares: Vec::new(),
+            weights: Vec::new(),
             aimed: Vec::new(),
             kept_from: Vec::new(),
             shapes: 0,
             at_rest: Vec::new(),
             weight_at_rest: weight::on_head(&free.rest_pose, f64::from(free.form.gravity)).as_vec3().to_array(),
             most_drag: free.form.most_drag(),
+            most_margin: free.form.most_margin(),
             center: 0.5 * (low + high),
             radius: 0.5 * low.distance(high) + 2.0 * longest,
             longest,
@@ -121,12 +133,18 @@ impl Packed {
         if let Some(skin) = &dynamics.skin {
             packed.places = skin.places(strands.iter().map(|strand| strand[0]));
         }
+        let margins = |form: &FreeForm| form.regions.iter().any(|region| region.margin != 1.0);
+        let same_margins = |known: &Self| !margins(&known.free.form) && !margins(&free.form);
         match known {
-            Some(known) if known.free.bodies == free.bodies && known.free.rest_pose == free.rest_pose => {
+            Some(known)
+                if known.free.bodies == free.bodies
+                    && known.free.rest_pose == free.rest_pose
+                    && same_margins(known) =>
+            {
                 (packed.kept_from, packed.shapes) = (known.kept_from.clone(), known.shapes);
             }
             _ => {
-                packed.kept_from = free.bodies.iter().map(|body| packed.kept_from(body)).collect();
+                packed.kept_from = free.bodies.iter().map(|body| packed.kept_from(body, strands)).collect();
                 packed.shapes = shapes(&free.bodies);
             }
         }
@@ -150,6 +168,16 @@ impl Packed {
         if self.free.form.wind_differs() {
             let own = range.clone().map(|s| self.free.own(strands.strand(s)));
             self.own.push(OwnRow::of(own));
+        }
+        if !self.shared.is_empty() {
+            let shares = range.clone().map(|s| self.free.shares(strands.strand(s)[0]));
+            self.shares.push(SharesRow::of(shares, self.shared.len()));
+        }
+        if self.free.form.regions.iter().any(|region| region.gravity != 1.0) {
+            let mut weights = Row([1.0; LANES]);
+            let of_strands = range.clone().map(|s| self.free.own(strands.strand(s)).weight as f32);
+            weights.0.iter_mut().zip(of_strands).for_each(|(row, weight)| *row = weight);
+            self.weights.push(weights);
         }
         if !self.free.aims.is_empty() {
             let skin = self.dynamics.skin.as_deref();
@@ -184,17 +212,24 @@ impl Packed {
     }
 
     /// From exactly the points that the step computes, so that hair at rest does not touch.
-    fn kept_from(&self, body: &Body) -> KeptFrom {
+    fn kept_from(&self, body: &Body, strands: &Strands) -> KeptFrom {
+        let margins = self.free.form.regions.iter().any(|region| region.margin != 1.0);
         let body_from_head = body.head_from_body(0, &self.free.rest_pose).inverse();
         let rows = self.rows.len();
         let mut kept = KeptFrom { clearances: vec![Row::default(); rows], filled: vec![0; rows] };
         for block in &self.blocks {
             let mut from = block.roots;
+            let mut times = [1.0; LANES];
+            if margins {
+                let first = block.first_strand as usize;
+                let strands = (first..strands.len()).map(|s| self.free.own(strands.strand(s)).margin);
+                times.iter_mut().zip(strands).for_each(|(times, margin)| *times = margin);
+            }
             for at in block.rows() {
                 let to = ends(&self.at_rest[at], &self.rows[at], &from);
                 for lane in 0..LANES {
                     let at_rest = body_from_head.transform_point3(Vec3::from(lane_of(&to, lane)));
-                    let (surface, clearance) = body.kept_from(at_rest);
+                    let (surface, clearance) = body.kept_from(at_rest, times[lane]);
                     kept.clearances[at].0[lane] = clearance;
                     kept.filled[at] |= u16::from(surface == Surface::Filled) << lane;
                 }
@@ -270,7 +305,8 @@ impl Packed {
         let steps = self.free.form.steps();
         bodies.clear();
         for step in 1..=steps {
-            let place = |(b, body)| PlacedBody::new(b, body, input, [step, steps], (self.center, self.radius));
+            let reach = (self.center, self.radius, self.most_margin);
+            let place = |(b, body)| PlacedBody::new(b, body, input, [step, steps], reach);
             bodies.extend(self.free.bodies.iter().enumerate().map(place));
         }
     }
@@ -285,7 +321,8 @@ impl Packed {
         let head = HeadFrame::new(input, &self.free.form);
         let skin = SkinStep::new(&self.dynamics, input, &head);
         let field = FieldFrame::new(input, self.dynamics.motion.force_space);
-        let uniform = field.uniform();
+        // A field that strands feel in shares of their own is not the same for all, wherever it is.
+        let uniform = field.uniform().filter(|_| self.shares.is_empty());
         let everywhere = uniform.filter(|_| crowd.is_none() && self.weakening.is_none());
         Plan::Step(Step {
             frame: input.frame,
@@ -379,6 +416,31 @@ impl Packed {
     #[inline(always)]
     pub fn own(&self, block: usize) -> Option<&OwnRow> {
         self.own.get(block)
+    }
+
+    /// The shares of the strands of a block in the fields; none if all feel all of them.
+    #[inline(always)]
+    pub fn shares(&self, block: usize) -> Option<&SharesRow> {
+        self.shares.get(block)
+    }
+
+    /// The force of the weight on the strands of a block, by that of the settings.
+    #[inline(always)]
+    pub fn weight(&self, block: usize, of_settings: [f32; 3]) -> PointRow {
+        let mut weight = of_settings.map(|along| Row([along; LANES]));
+        if let Some(times) = self.weights.get(block) {
+            for lane in 0..LANES {
+                let of_strand = scale(times.0[lane], of_settings);
+                set_lane(&mut weight, lane, of_strand);
+            }
+        }
+        weight
+    }
+
+    /// That of the weight at rest.
+    #[inline(always)]
+    pub fn weight_at_rest(&self, block: usize) -> PointRow {
+        self.weight(block, self.weight_at_rest)
     }
 
     /// The aims that act on strands of a block in a frame; none if there are none.

@@ -102,7 +102,13 @@ impl<'a, 's> Blown<'a, 's> {
     fn outer_forces(&self, at: usize, points: &PointRow) -> PointRow {
         let mut forces = match self.step.uniform {
             Some([x, y, z]) => [Row([x; LANES]), Row([y; LANES]), Row([z; LANES])],
-            None => self.step.field.at_row(points),
+            None => match self.packed.shares(self.number) {
+                None => self.step.field.at_row(points),
+                Some(shares) => {
+                    let share = |field: &str| shares.in_field(field, &self.packed.shared);
+                    self.step.field.at_row_shared(points, &share)
+                }
+            },
         };
         if let Some((surroundings, eps)) = &self.packed.weakening {
             for lane in 0..LANES {
@@ -143,6 +149,7 @@ impl<'a, 's> Stepped<'a, 's> {
                 set_lane(&mut acceleration, lane, add(rotate(&way.acceleration.0, root), way.acceleration.1));
             }
         }
+        let weight = packed.weight(number, step.weight);
         let is_carried = self.of.ride.is_some() || step.way.is_some();
         for (i, ((state, row), work)) in states.iter_mut().zip(rows).zip(work).enumerate() {
             prefetch_ahead(row, AHEAD);
@@ -158,28 +165,29 @@ impl<'a, 's> Stepped<'a, 's> {
             }
             let (push, mut all) = (row.push, other);
             for lane in 0..LANES {
-                let pushed = scale_add(push.0[lane], step.weight, lane_of(&other, lane));
+                let pushed = scale_add(push.0[lane], lane_of(&weight, lane), lane_of(&other, lane));
                 set_lane(&mut all, lane, pushed);
             }
             work.pushed = all;
             if !self.bodies.is_empty() {
-                self.push_back(state, row, first + i, &other, work);
+                self.push_back(state, row, first + i, [&other, &weight], work);
             }
         }
     }
 
-    /// Removes from the acceleration of some nodes what would carry them into the bodies.
+    /// Removes from the acceleration of some nodes what would carry them into the bodies. `by`: all acceleration but by weight, and
+    /// the force of weight.
     #[inline(always)]
-    fn push_back(&self, state: &mut FreeState, row: &FreeRow, at: usize, other: &PointRow, work: &mut Work) {
+    fn push_back(&self, state: &mut FreeState, row: &FreeRow, at: usize, by: [&PointRow; 2], work: &mut Work) {
         work.clear = Row([f32::INFINITY; LANES]);
-        let (h, weight) = (self.h, self.of.step.weight);
-        let (other, push) = (*other, row.push);
+        let h = self.h;
+        let ([other, weight], push) = (by.map(|by| *by), row.push);
         let Work { velocity, weight: at_rest, drag, .. } = *work;
         let (mut net, mut reach) = (PointRow::default(), Row::default());
         for lane in 0..LANES {
             let velocity = lane_of(&velocity, lane);
             // The effect of weight minus the weight that balances the hair at rest.
-            let unbalanced = scale(push.0[lane], subtract(weight, lane_of(&at_rest, lane)));
+            let unbalanced = scale(push.0[lane], subtract(lane_of(&weight, lane), lane_of(&at_rest, lane)));
             let sum = add(lane_of(&other, lane), unbalanced);
             let sum = scale_add(-drag.0[lane], velocity, sum);
             set_lane(&mut net, lane, sum);

@@ -11,5 +11,5 @@ use crate::free_form::FreeMotion;
 
 /// What may be too strong for the step, besides the field. Joints and hold are implicit and may have any strength.
 pub(in crate::dynamics) fn pulls(free: &FreeMotion) -> Vec<Box<dyn Pull + '_>> {
-    vec![Box::new(Gravity(free.form.gravity))]
+    vec![Box::new(Gravity { setting: free.form.gravity, times: free.form.most_weight() })]
 }

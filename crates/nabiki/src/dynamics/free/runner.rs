@@ -58,6 +58,7 @@ impl Runner {
     /// Refuses a field under which this hair, or its carriers, cannot be stepped. `strands` are those that it was built
     /// from, `ids` their numbers.
     pub fn check_field(&self, strands: &Strands, ids: &[u32], field: &dyn Field) -> Result<(), SettingError> {
+        self.packed.free.form.check_shares(field)?;
         let carriers = self.carriers.as_ref();
         if self.packed.is_stable(field) && carriers.is_none_or(|carriers| carriers.hair.packed.is_stable(field)) {
             return Ok(());

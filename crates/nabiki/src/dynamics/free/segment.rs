@@ -49,7 +49,7 @@ pub fn substeps(dynamics: &Dynamics, form: &FreeForm, gravity: f32, [length, seg
     /// throw single strands at 13; at 10, curls do in a wind four times as strong.
     const RIPPLE: f64 = 6.0;
     let push = push(dynamics, length);
-    let swing = (push * f64::from(gravity) / length).sqrt();
+    let swing = (push * f64::from(gravity) * form.most_weight() / length).sqrt();
     let stiffest = form.stiffness.values().iter().fold(0.0_f32, |most, k| most.max(*k));
     let stiffest = f64::from(stiffest) * form.most_stiffened();
     let ripple = joints::bending(dynamics, push, length, stiffest).sqrt() / segment.powi(2);
@@ -71,7 +71,8 @@ pub(in crate::dynamics) fn shapes(
     let mut shapes = segment_shapes(dynamics, strand, s, held)?;
     let length = shapes[held..].iter().map(|shape| shape.length).sum();
     let step = 1.0 / f64::from(free.form.steps());
-    let gain = push(dynamics, length) * step.powi(2) / length * free.own(strand).most_wind().max(1.0);
+    let most = free.own(strand).most_wind() * f64::from(free.shares(strand[0]).largest());
+    let gain = push(dynamics, length) * step.powi(2) / length * most.max(1.0);
     shapes[held..].iter_mut().for_each(|shape| shape.gain = gain);
     Ok(shapes)
 }
@@ -93,7 +94,8 @@ pub(in crate::dynamics) fn free_segments(
     let length: f64 = shapes[held..].iter().map(|shape| shape.length).sum();
     let push = push(dynamics, length);
     let (own, regions) = (free.own(strand), free.regions_of(strand[0]));
-    let rest_weight = push * weight::on_head(&free.rest_pose, f64::from(form.gravity));
+    let gravity = own.weight * f64::from(form.gravity);
+    let rest_weight = push * weight::on_head(&free.rest_pose, gravity);
     let still = |i: usize| FreeSegment {
         shape: shapes[i],
         rest: (points[i + 1] - points[i]).normalize(),
@@ -123,7 +125,7 @@ pub(in crate::dynamics) fn free_segments(
         let stiffness = regions.times(own.stiffness, |region| &region.stiffness, shape.begin);
         let settle = at_middle(1.0, |region| &region.settle) * f64::from(dynamics.motion.slow);
         let held = at_middle(1.0, |region| &region.hold) * form.hold.at(shape.middle)
-            + weight::held_up(&free.rest_pose, form.gravity.into(), rest);
+            + weight::held_up(&free.rest_pose, gravity, rest);
         segments[i] = FreeSegment {
             push,
             lightness: 1.0 / mass,

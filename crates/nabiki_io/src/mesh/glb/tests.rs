@@ -372,19 +372,30 @@ fn a_clip_bends_a_mesh_by_joints_and_morphs() {
         of(5, 5126, 2, "SCALAR"),
         of(6, 5121, 3, "VEC4"),
     ];
-    let json = format!(
-        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1,2]}}],
-        "nodes":[{{"name":"still"}},{{"name":"rising"}},{{"name":"face","mesh":0,"skin":0}}],
-        "skins":[{{"joints":[0,1]}}],
+    let face = r#"{"name":"face","mesh":0,"skin":0}"#;
+    let rises = r#"{"sampler":0,"target":{"node":1,"path":"translation"}}"#;
+    let json = |scene: &str, nodes: &str, joints: &str, channels: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[{scene}]}}],
+        "nodes":[{nodes},{face}],
+        "skins":[{{"joints":[{joints}]}}],
         "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":6,"WEIGHTS_0":2}},"targets":[{{"POSITION":1}}]}}]}}],
-        "animations":[{{"samplers":[{{"input":3,"output":4}},{{"input":3,"output":5}}],"channels":[
-        {{"sampler":0,"target":{{"node":1,"path":"translation"}}}},{{"sampler":1,"target":{{"node":2,"path":"weights"}}}}]}}],
+        "animations":[{{"samplers":[{{"input":3,"output":4}},{{"input":3,"output":5}}],"channels":[{channels}]}}],
         "accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}}"#,
-        accessors.join(","),
-        views.join(","),
-        binary.len()
-    );
-    let bytes = crate::gltf_file::tests::glb(&json, &binary);
+            accessors.join(","),
+            views.join(","),
+            binary.len()
+        )
+    };
+    let file = |scene, nodes, joints, channels: &str| {
+        crate::gltf_file::tests::glb(&json(scene, nodes, joints, channels), &binary)
+    };
+    // What moves may be a node above a joint. Above both joints it takes the mesh along as a whole.
+    let bent = |scene, nodes, joints| bends(&file(scene, nodes, joints, rises), None, &[], "").unwrap();
+    assert!(bent("0,1,3", r#"{"name":"still"},{"name":"helper","children":[2]},{"name":"joint"}"#, "0,2"));
+    assert!(!bent("1,3", r#"{"name":"joint"},{"name":"helper","children":[0,2]},{"name":"joint"}"#, "0,2"));
+    let morphs = r#"{"sampler":1,"target":{"node":2,"path":"weights"}}"#;
+    let bytes = file("0,1,2", r#"{"name":"still"},{"name":"rising"}"#, "0,1", &format!("{rises},{morphs}"));
     assert!(bends(&bytes, None, &[], "").unwrap());
     let mut frames = Vec::new();
     each_bent(&bytes, None, &[], "", &[0.0, 0.25, 1.0], &mut |n, all| {

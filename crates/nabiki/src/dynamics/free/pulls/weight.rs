@@ -9,8 +9,11 @@ use crate::pose::Pose;
 use crate::scalar::{Scalar, Vector};
 use crate::vector::{cross, dot, scale};
 
-/// Of `free.gravity`.
-pub struct Gravity(pub f32);
+/// Of `free.gravity`, where regions multiply it most.
+pub struct Gravity {
+    pub setting: f32,
+    pub times: f64,
+}
 
 impl Pull for Gravity {
     fn name(&self) -> Name {
@@ -18,11 +21,11 @@ impl Pull for Gravity {
     }
 
     fn setting(&self) -> f32 {
-        self.0
+        self.setting
     }
 
     fn strongest(&self) -> f64 {
-        f64::from(self.0)
+        f64::from(self.setting) * self.times
     }
 }
 

@@ -9,11 +9,11 @@ use crate::obstacle::Reading;
 use crate::pose::Pose;
 use crate::scalar::{Scalar, Vector};
 
-/// The surface that each point is kept out of, and at what distance (cm).
-pub fn kept_from(body: &Body, rest_pose: &Pose, positions: &[DVec3]) -> Vec<(Surface, f64)> {
+/// The surface that each point is kept out of, and at what distance (cm). `times`: the strand's factor on the margin.
+pub fn kept_from(body: &Body, rest_pose: &Pose, positions: &[DVec3], times: f64) -> Vec<(Surface, f64)> {
     let body_from_head = exact(body.head_from_body(0, rest_pose)).inverse();
     let kept = |p: &DVec3| {
-        let (surface, clearance) = body.kept_from(body_from_head.transform_point3(*p).as_vec3());
+        let (surface, clearance) = body.kept_from(body_from_head.transform_point3(*p).as_vec3(), times);
         (surface, f64::from(clearance))
     };
     positions.iter().map(kept).collect()

@@ -17,6 +17,7 @@ use crate::dynamics::ride::Ride;
 use crate::error::SettingError;
 use crate::free_form::FreeMotion;
 use crate::locks::Own;
+use crate::region::FieldShares;
 use crate::scalar::{Scalar, Turn, Vector};
 use crate::skin::{SkinFrame, SkinPlace};
 
@@ -42,6 +43,8 @@ pub(in crate::dynamics) struct Strand<S> {
     anchor: usize,
     /// How it differs from the settings.
     own: Own,
+    /// Its shares in the fields.
+    shares: FieldShares,
     /// The place of the skin that carries its root, and that point of it at rest.
     on_skin: Option<(SkinPlace, DVec3)>,
     /// The aims that lead it.
@@ -162,6 +165,7 @@ impl<S: Scalar> Strand<S> {
             kept_from: meets,
             anchor,
             own,
+            shares: free.shares(strand[0]),
             on_skin: place.map(|place| (place, strand[anchor].as_dvec3())),
             aims,
             ride: None,
@@ -169,7 +173,8 @@ impl<S: Scalar> Strand<S> {
         };
         strand.place();
         let at_rest: Vec<DVec3> = strand.positions.iter().map(|p| p.value()).collect();
-        strand.kept_from = free.bodies.iter().map(|body| kept_from(body, &free.rest_pose, &at_rest)).collect();
+        strand.kept_from =
+            free.bodies.iter().map(|body| kept_from(body, &free.rest_pose, &at_rest, own.margin)).collect();
         strand.take_rest(free);
         if let Some(skin) = &dynamics.skin {
             strand.rest_on(skin.at(0));
@@ -179,8 +184,8 @@ impl<S: Scalar> Strand<S> {
 
     /// Stores the rounding error that the solve leaves at rest.
     fn take_rest(&mut self, free: &FreeMotion) {
-        let Self { segments, chain, residual, .. } = self;
-        let weight = Vector::from(weight::on_head(&free.rest_pose, f64::from(free.form.gravity)));
+        let Self { segments, chain, residual, own, .. } = self;
+        let weight = Vector::from(own.weight * weight::on_head(&free.rest_pose, f64::from(free.form.gravity)));
         for (i, segment) in segments.iter().enumerate() {
             chain.pushed[i] = weight.times(segment.moved_by.push);
             chain.drag[i] = segment.air;
@@ -214,6 +219,7 @@ impl<S: Scalar> Strand<S> {
             kept_from: known.kept_from.clone(),
             anchor: known.anchor,
             own: known.own,
+            shares: known.shares.clone(),
             on_skin: known.on_skin,
             aims: known.aims.clone(),
             ride: None,
@@ -354,7 +360,7 @@ impl<S: Scalar> Strand<S> {
         let (times, turn) = self.own.wind(common.frame);
         for (i, segment) in self.segments.iter().enumerate() {
             let (end, FreeSegment { shape, push, .. }) = (self.positions[i + 1], segment.moved_by);
-            let field = air.force(end);
+            let field = air.force(end, &self.shares);
             let weakened = common.gamma.contains(end.value(), field.value().as_vec3());
             let field = (field + Vector::from(turn).cross(field)).times(times);
             let mut force = field.times(if weakened { shape.eps() } else { 1.0 });
@@ -382,14 +388,14 @@ impl<S: Scalar> Strand<S> {
             let FreeSegment { push, drag, lightness, .. } = segment.moved_by;
             let still_air = acceleration + velocity * segment.air;
             let other = self.blown[i] - still_air.times(drag);
-            let weight = Vector::from(head.weight).times(push);
+            let weight = Vector::from(self.own.weight * head.weight).times(push);
             self.chain.pushed[i] = other + weight;
             self.clear[i] = S::from(f64::INFINITY);
             if bodies.is_empty() || lightness == 0.0 {
                 continue;
             }
             // A body carries what the weight that balances the rest presses on it.
-            let carried = self.chain.frames[i].of_known(common.rest_weight).times(push);
+            let carried = self.chain.frames[i].of_known(self.own.weight * common.rest_weight).times(push);
             let speed = self.chain.velocities[i + 1];
             let net = other + (weight - carried) - speed * self.chain.drag[i];
             let (at, shifted) = (self.positions[i + 1], self.shifted[i + 1]);

@@ -8,6 +8,7 @@ use crate::dynamics::gain::{SegmentShape, segment_shapes};
 use crate::dynamics::paper::angles::{POLE_REST, POLE_SINE, azimuth, from_direction};
 use crate::error::SettingError;
 use crate::pseudo_force::Gamma;
+use crate::region::FieldShares;
 use crate::scalar::{Scalar, Vector};
 use crate::skin::{SkinFrame, SkinPlace};
 
@@ -114,7 +115,7 @@ impl<S: Scalar> Strand<S> {
     #[inline(always)]
     pub fn step(&mut self, common: &Common, air: &impl Air<S>, disturbed: Option<[f64; 2]>, skin: Option<&SkinFrame>) {
         for (segment, &end) in self.segments.iter_mut().zip(&self.positions[1..]) {
-            let force = air.force(end);
+            let force = air.force(end, &FieldShares::default());
             let weakened = common.gamma.contains(end.value(), force.value().as_vec3());
             let gain = if weakened { segment.shape.gain_in_gamma } else { segment.shape.gain };
             segment.advance(gain, force.by(&common.polar_from_head));
