@@ -4,12 +4,14 @@ mod outward;
 #[cfg(test)]
 mod tests;
 mod two_sided;
+mod weights;
 
 use std::collections::HashMap;
 
 use glam::{Vec2, Vec3};
 
 pub use outward::Orientation;
+pub use weights::VertexWeights;
 
 /// An indexed triangle mesh, counter-clockwise seen from outside (head space, cm, unless documented otherwise).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,6 +23,8 @@ pub struct Mesh {
     /// Texture coordinates of the corners of each of `triangles`, v upward. `None` if the source lacks any of them.
     /// They are per corner because at a seam the triangles on both sides use different coordinates for the same vertex.
     pub corner_uvs: Option<Vec<[Vec2; 3]>>,
+    /// Painted weights and colours of the vertices, by name.
+    pub weights: Vec<VertexWeights>,
 }
 
 impl Mesh {

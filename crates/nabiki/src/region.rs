@@ -22,7 +22,7 @@ const MOST: f64 = 10.0;
 settings! {
     /// Hair that moves differently from the rest, such as a fringe that stays in the wind.
     ///
-    /// A strand belongs to the region by its group, by an attribute of the hair, by a painted map, by painted points, or if
+    /// A strand belongs to the region by its group, by an attribute of the hair or of the head's mesh, by a painted map, by painted points, or if
     /// its root is near a point or line; with several of these, by all of them. Each factor multiplies a setting of `[free]`: one number,
     /// or a list from root to tip. Where regions overlap, their factors multiply.
     pub struct Region where reaches_hair {
@@ -33,11 +33,13 @@ settings! {
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub groups: Vec<String> = Vec::new() => "Groups";
         /// Attribute of the hair in its file, such as a painted weight: one number per strand or point, of which that of
-        /// the root counts. It is how much the strand belongs to the region: 0 not at all, 1 fully.
+        /// the root counts. It is how much the strand belongs to the region: 0 not at all, 1 fully. If the hair has none of
+        /// this name, it is a weight or colour that is painted on the vertices of the head's mesh, where the strand grows. Of
+        /// a colour the luminance counts, or one channel: "COLOR_0.g".
         #[serde(skip_serializing_if = "Option::is_none")]
         pub attribute: Option<String> = None => "Attribute", open "none";
-        /// Values of the attribute that belong to the region, such as the numbers of clumps. Without them, the attribute is a
-        /// weight.
+        /// Values of the attribute that belong to the region, such as the numbers of clumps, or of parts of the head's mesh.
+        /// Without them, the attribute is a weight.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub values: Vec<i32> = Vec::new() => "Values";
         /// A picture over the head, PNG: white where hair belongs to it fully, black where it does not. Hair finds its

@@ -289,7 +289,7 @@ fn tied_hair_goes_along_with_its_skin() {
 fn skin_that_cannot_carry_hair_is_refused_by_one_line() {
     let mesh = scalp();
     let line = |result: Result<Skin, nabiki::SettingError>| result.unwrap_err().to_string();
-    let flat = Mesh { positions: vec![Vec3::ONE; 3], triangles: vec![[0, 1, 2]], corner_uvs: None };
+    let flat = Mesh { positions: vec![Vec3::ONE; 3], triangles: vec![[0, 1, 2]], ..Mesh::default() };
     assert_eq!(
         line(Skin::new(&flat, "head.mesh")),
         "head.mesh has no triangle with an area, so it carries no hair: give a mesh of the skin"

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use nabiki::hair::{Per, Role, Values};
 use nabiki_exchange::attributes::{NamedValues, Whatever, indexed, indexed_values, misindexed, whole};
-use nabiki_exchange::{Budget, Uvs};
+use nabiki_exchange::{Budget, Canvas, Painted, PaintedOn, Uvs};
 
 use crate::Problem;
 use crate::layout::{Kind, Pod, stored};
@@ -105,6 +105,34 @@ impl<'a, R: Read + Seek> Parameters<'a, R> {
             return Ok(Err(why.to_owned()));
         }
         Ok(self.tuples::<2>("uv")?.map(|uvs| Some(of(uvs))).ok_or_else(|| "they are not pairs of numbers".to_owned()))
+    }
+
+    /// The numbers and colours that the vertices or corners of the mesh at `path` have by a name, and what of these is left out, a
+    /// phrase each. Values for faces or for the whole mesh are not read.
+    pub fn painted(&mut self, path: &str, canvas: Canvas<'_>) -> (Vec<Painted>, Vec<String>) {
+        let (mut all, mut left_out) = (Vec::new(), Vec::new());
+        for name in self.names() {
+            match self.painted_as(&name, canvas) {
+                Ok(painted) => all.extend(painted),
+                Err(why) => left_out.push(format!("{name} of {path}: {why}")),
+            }
+        }
+        (all, left_out)
+    }
+
+    fn painted_as(&mut self, name: &str, canvas: Canvas<'_>) -> Result<Option<Painted>, Problem> {
+        // Those of the schema are no weights.
+        let Some(header) = self.header(name).filter(|_| !OF_SCHEMA.contains(&name)) else { return Ok(None) };
+        let on = match header.detail("geoScope") {
+            Some("fvr") => PaintedOn::Corners,
+            Some("vtx" | "var") => PaintedOn::Vertices,
+            _ => return Ok(None),
+        };
+        if let Some(why) = self.misindexed(name)? {
+            return Err(Problem::new(why));
+        }
+        let Some(whatever) = self.whatever(name)? else { return Ok(None) };
+        Painted::of(name, &whatever, on, canvas, self.budget())
     }
 
     fn stored(&mut self, name: &str) -> Result<Option<Sample>, Problem> {

@@ -4,7 +4,7 @@ use std::io::{Read, Seek};
 
 use glam::{Affine3A, Vec3};
 use nabiki::Mesh;
-use nabiki_exchange::{Candidate, FIRST_SHAPE, Polygons, add_polygons, kept_holes, those_that_show};
+use nabiki_exchange::{Candidate, Canvas, FIRST_SHAPE, Polygons, add_polygons, kept_holes, those_that_show};
 
 use crate::Problem;
 use crate::attributes::Parameters;
@@ -93,9 +93,9 @@ impl<R: Read + Seek> ArchiveReader<R> {
         Ok(positions)
     }
 
-    /// Appends the polygons of an object as they are at `time` (s); the answer says why they have no texture coordinates, if those
-    /// that it has are none.
-    pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<Option<String>, Problem> {
+    /// Appends the polygons of an object as they are at `time` (s), with their weights and colours; the answer says what of these and
+    /// of the texture coordinates is left out, a phrase each.
+    pub(crate) fn add_mesh(&mut self, mesh: &mut Mesh, object: usize, time: f64) -> Result<Vec<String>, Problem> {
         let path = self.tree.path(object);
         let inside = self.schema(object)?;
         let world = Affine3A::from_mat4(self.world(object, time)?.as_mat4());
@@ -108,13 +108,23 @@ impl<R: Read + Seek> ArchiveReader<R> {
             integers(header.kind, &self.tree.sample(header, sample)?)
         };
         let (counts, corners) = (numbers(".faceCounts")?, numbers(".faceIndices")?);
-        let (uvs, none) = match Parameters::of(&mut self.tree, inside, frame)?.texture_coordinates()? {
+        let mut parameters = Parameters::of(&mut self.tree, inside, frame)?;
+        let (uvs, none) = match parameters.texture_coordinates()? {
             Ok(uvs) => (uvs, None),
             Err(why) => (None, Some(why)),
         };
+        let (painted, unpainted) = parameters.painted(&path, Canvas { vertices: positions.len(), corners: &corners });
         // Alembic winds faces clockwise.
         let polygons = Polygons { positions: &positions, counts: &counts, corners: &corners, clockwise: true, uvs };
+        let first = mesh.positions.len();
         let misfit = add_polygons(mesh, polygons, &world).map_err(|e| Problem(format!("mesh {path}: {e}")))?;
-        Ok(none.or(misfit))
+        let mut left_out: Vec<String> =
+            none.or(misfit).map(|why| format!("texture coordinates of {path}: {why}")).into_iter().collect();
+        left_out.extend(unpainted);
+        for painted in painted {
+            let added = painted.add_to(mesh, first, self.tree.budget());
+            left_out.extend(added.err().map(|why| format!("{} of {path}: {why}", painted.name)));
+        }
+        Ok(left_out)
     }
 }

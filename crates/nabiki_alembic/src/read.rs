@@ -382,8 +382,7 @@ impl<R: Read + Seek> GroomReader for ArchiveReader<R> {
         // Where the head stands as the hair's first frame finds it.
         let time = self.time_of(0)?;
         for object in self.chosen_meshes(wanted)?.objects {
-            let left_out = self.add_mesh(&mut mesh, object, time)?;
-            lost.extend(left_out.map(|why| format!("texture coordinates of {}: {why}", self.tree.path(object))));
+            lost.extend(self.add_mesh(&mut mesh, object, time)?);
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}, which is not finite"))),

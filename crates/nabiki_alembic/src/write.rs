@@ -384,7 +384,8 @@ mod tests {
         hair.attributes.width = Some(vec![0.5, 0.25]);
         hair.attributes.id = Some(vec![7]);
         hair.attributes.root_uv = Some(vec![[0.5, 0.25]]);
-        let skin = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], corner_uvs: None };
+        let skin =
+            Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("hair.abc");
         let mut export = Export::new(&hair, 8.0);

@@ -65,7 +65,7 @@ fn tetrahedron() -> Mesh {
     Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
         triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
-        corner_uvs: None,
+        ..Mesh::default()
     }
 }
 

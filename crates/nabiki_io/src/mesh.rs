@@ -203,22 +203,23 @@ fn place(p: Vec3) -> [u32; 3] {
     (p + 0.0).to_array().map(f32::to_bits)
 }
 
-/// Joins vertices at the very same place (the first of them stays) and drops triangles with coinciding corners. What
-/// is left keeps the texture coordinates of its own corners, so that seams stay.
+/// Joins vertices at the very same place (the first of them stays, with its weights) and drops triangles with coinciding
+/// corners. What is left keeps the texture coordinates of its own corners, so that seams stay.
 fn weld(mesh: Mesh) -> Mesh {
     let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
-    let mut positions = Vec::new();
-    let number: Vec<u32> = mesh
-        .positions
-        .iter()
-        .map(|&p| {
+    let (mut positions, mut kept) = (Vec::new(), Vec::new());
+    let number: Vec<u32> = (0..)
+        .zip(&mesh.positions)
+        .map(|(v, &p)| {
             *numbers.entry(place(p)).or_insert_with(|| {
                 positions.push(p);
+                kept.push(v);
                 positions.len() as u32 - 1
             })
         })
         .collect();
-    let mut welded = Mesh { positions, ..Mesh::default() };
+    let weights = mesh.weights.iter().map(|weights| weights.of_vertices(kept.iter().copied())).collect();
+    let mut welded = Mesh { positions, weights, ..Mesh::default() };
     for (t, triangle) in mesh.triangles.iter().enumerate() {
         let [a, b, c] = triangle.map(|v| number[v as usize]);
         if a != b && b != c && c != a {
@@ -261,6 +262,16 @@ mod tests {
             MeshReport { vertices_in_file: 6, joined_vertices: 2, dropped_triangles: 1, unread: Vec::new() }
         );
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (4, 2));
+    }
+
+    #[test]
+    fn joined_vertices_keep_the_weights_of_the_first() {
+        let text =
+            "v 0 0 0 0.5 0.5 0.5\nv 1 0 0\nv 0 1 0 1 1 1\nv 0 0 0 1 1 1\nv 0 0 1 0.25 0.25 0.25\nf 1 2 3\nf 4 5 2\n";
+        let mesh = from_bytes(text.as_bytes(), "obj", &[]).unwrap();
+        let (mesh, report) = place_and_weld(mesh, &Placement::default()).unwrap();
+        assert_eq!(report.joined_vertices, 1);
+        assert_eq!(mesh.weights_named("color").unwrap().values, [0.5, 0.0, 1.0, 0.25]);
     }
 
     #[test]

@@ -55,6 +55,14 @@ pub(crate) fn place<'a>(mut words: impl Iterator<Item = &'a str>, line: &str, nu
     }
 }
 
+/// The colour that follows the place of a `v`, as many programs write it: exactly three more numbers.
+pub(crate) fn colour<'a>(words: impl Iterator<Item = &'a str>) -> Option<[f32; 3]> {
+    let mut more = words.skip(3);
+    let mut number = || more.next().and_then(|word| word.parse().ok());
+    let colour = [number()?, number()?, number()?];
+    more.next().is_none().then_some(colour)
+}
+
 /// The texture coordinates that follow a `vt`; v is 0 where it is left out, the third is of no surface.
 pub(crate) fn texture_coordinates<'a>(
     mut words: impl Iterator<Item = &'a str>,

@@ -30,7 +30,7 @@ fn strands() -> Strands {
 
 fn write(folder: &Path, name: &str) -> PathBuf {
     let hair = Hair::from(strands());
-    let skin = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], corner_uvs: None };
+    let skin = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]], ..Mesh::default() };
     let mut export = Export::new(&hair, 20.0);
     export.head = Some(&skin);
     let path = folder.join(name);

@@ -210,7 +210,7 @@ fn a_sheet_is_refused() {
     let positions = (0..100).map(at).collect();
     let cells = (0..90).filter(|i| i % 10 < 9);
     let triangles = cells.flat_map(|i| [[i, i + 1, i + 11], [i, i + 11, i + 10]]).collect();
-    let flat = Mesh { positions, triangles, corner_uvs: None };
+    let flat = Mesh { positions, triangles, ..Mesh::default() };
     let mut folded = flat.clone();
     folded.positions.iter_mut().for_each(|p| p.x = (p.x - 4.5).abs());
     let ellipsoid = Ellipsoid { center: Vec3::new(4.5, 4.5, 0.0), half_axes: Vec3::splat(9.0) };

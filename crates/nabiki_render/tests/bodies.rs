@@ -13,7 +13,7 @@ const HEIGHT: f32 = 48.0;
 fn octahedron(radius: f32) -> Mesh {
     let positions = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z].map(|p| radius * p).to_vec();
     let triangles = vec![[0, 1, 2], [2, 1, 3], [3, 1, 5], [5, 1, 0], [2, 4, 0], [3, 4, 2], [5, 4, 3], [0, 4, 5]];
-    Mesh { positions, triangles, corner_uvs: None }
+    Mesh { positions, triangles, ..Mesh::default() }
 }
 
 fn hair() -> Strands {

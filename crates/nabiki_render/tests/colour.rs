@@ -25,7 +25,7 @@ fn shown(look: HairLook, lights: Vec<Light>) -> [f32; 3] {
     let head = Mesh {
         positions: vec![place, place + Vec3::Y, place + Vec3::Z, place - Vec3::X],
         triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]],
-        corner_uvs: None,
+        ..Mesh::default()
     };
     let camera = Camera {
         projection: Projection::Orthographic,

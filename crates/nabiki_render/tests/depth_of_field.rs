@@ -59,7 +59,7 @@ fn wisps(count: usize, turn: f32) -> Strands {
 fn octahedron() -> Mesh {
     let positions = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z].map(|p| 3.5 * p).to_vec();
     let triangles = vec![[0, 1, 2], [2, 1, 3], [3, 1, 5], [5, 1, 0], [2, 4, 0], [3, 4, 2], [5, 4, 3], [0, 4, 5]];
-    Mesh { positions, triangles, corner_uvs: None }
+    Mesh { positions, triangles, ..Mesh::default() }
 }
 
 fn sum(frame: &Frame) -> [f64; 4] {

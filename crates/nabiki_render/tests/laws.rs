@@ -27,7 +27,7 @@ fn wisps(strands: usize, segments: usize) -> Strands {
 fn octahedron() -> Mesh {
     let positions = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z].map(|p| 8.5 * p).to_vec();
     let triangles = vec![[0, 1, 2], [2, 1, 3], [3, 1, 5], [5, 1, 0], [2, 4, 0], [3, 4, 2], [5, 4, 3], [0, 4, 5]];
-    Mesh { positions, triangles, corner_uvs: None }
+    Mesh { positions, triangles, ..Mesh::default() }
 }
 
 fn fixed_view(picture: &Picture) -> View {
@@ -393,7 +393,7 @@ fn what_passes_behind_the_head_while_the_shutter_is_open_shows_where_it_was_befo
     (picture.shutter, picture.hair.width) = (1.0, 0.5);
     let corners = [[-30.0, -30.0], [30.0, -30.0], [30.0, 30.0], [-30.0, 30.0]];
     let positions = corners.map(|[y, z]| vec3(0.0, y, z)).to_vec();
-    let wall = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None };
+    let wall = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
     let hair = |x: f32, z: f32| line((0..9).map(|k| vec3(x, 10.0 - 2.5 * k as f32, z)));
     for side in [-1.0, 1.0] {
         // From one side before the wall to the other behind it.

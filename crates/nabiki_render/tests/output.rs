@@ -19,7 +19,7 @@ fn scene() -> (Strands, Mesh) {
     let corners = [Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z].map(|c| 7.0 * c);
     let positions = [&[7.0 * Vec3::Y, -7.0 * Vec3::Y][..], &corners].concat();
     let triangles = (0..4).flat_map(|i| [[0, 2 + (i + 1) % 4, 2 + i], [1, 2 + i, 2 + (i + 1) % 4]]).collect();
-    (strands, Mesh { positions, triangles, corner_uvs: None })
+    (strands, Mesh { positions, triangles, ..Mesh::default() })
 }
 
 fn setting(picture: &Picture) -> (Renderer, Strands, View) {

@@ -8,7 +8,7 @@ use nabiki_render::{Bounds, DrawnBody, Frame, FrameToDraw, Moment, Picture, Rend
 /// A wall across the view, 20 cm wide and high.
 fn wall() -> Mesh {
     let positions = [[-10.0, -10.0], [10.0, -10.0], [10.0, 10.0], [-10.0, 10.0]].map(|[z, y]| vec3(0.0, y, z)).to_vec();
-    Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None }
+    Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
 }
 
 /// Hair on the wall's upper half that grows away from the viewer, behind the wall, so that only its roots matter.

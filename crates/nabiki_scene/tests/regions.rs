@@ -1,4 +1,4 @@
-//! Regions by groups and attributes of the hair: which strands belong to them, and what is refused.
+//! Regions by groups and attributes of the hair or its head: which strands belong to them, and what is refused.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -197,6 +197,8 @@ fn groups_and_attributes_that_are_not_there_are_refused_with_those_that_are() {
         let said = imported(region, "", Shown::All).map(|_| ()).unwrap_err();
         assert!(said.contains(line), "{said}");
     }
+    let said = imported("attribute = \"nothing\"", "", Shown::All).map(|_| ()).unwrap_err();
+    assert!(said.contains("clump, large, painted; the head's mesh has none"), "{said}");
     let bare = "[motion]\nform = \"free\"\n[[free.regions]]\nattribute = \"painted\"\n[[force]]\nthrough = 3\nvector = [1, 0, 0]";
     let said = Scene::parse(bare, Path::new("s.toml"), &[]).unwrap().build(Shown::AtMost(9)).map(|_| ()).unwrap_err();
     assert!(said.to_string().contains("the hair has no attributes with one number per strand or point"), "{said}");
@@ -291,4 +293,135 @@ fn grown_hair_finds_its_place_on_a_map() {
     let mut other = half_white();
     other.put_pixel(60, 3, image::Luma([0]));
     assert_ne!(first.identity().unwrap(), built(&other).identity().unwrap());
+}
+
+/// The square head without texture coordinates, whose vertices have these colours.
+fn coloured(colours: [&str; 5]) -> String {
+    let places = ["-10 0 -10", "10 0 -10", "10 0 10", "-10 0 10", "0 -12 0"];
+    let vertices: String = places.iter().zip(colours).map(|(place, colour)| format!("v {place} {colour}\n")).collect();
+    vertices + "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"
+}
+
+/// What a region by an attribute selects of hair in a file on such a head, strand by strand from -z to z.
+fn by_colour(head: &str, region: &str, of_hair: &str) -> Result<(Vec<f32>, Vec<f64>), String> {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let z = |s: i32| -8.75 + 2.5 * s as f32;
+    let points: Vec<String> = (0..8).flat_map(|s| [0, 4, 8].map(|y| format!("(2, {y}, {})", z(s)))).collect();
+    let hair = format!(
+        "#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = \"Y\"\n)\ndef BasisCurves \"hair\"\n{{\n    uniform token type = \
+         \"linear\"\n    int[] curveVertexCounts = [3, 3, 3, 3, 3, 3, 3, 3]\n    point3f[] points = [{}]\n{of_hair}\n}}\n",
+        points.join(", ")
+    );
+    std::fs::write(at("hair.usda"), hair).unwrap();
+    std::fs::write(at("head.obj"), head).unwrap();
+    let text = format!(
+        "[motion]\nform = \"free\"\n[head]\nmesh = \"head.obj\"\nellipsoid = {{ center = [0, 0, 0], half_axes = [9, 9, 9] }}\n\
+         [hair]\nfile = \"hair.usda\"\nroot = \"first\"\n[[free.regions]]\n{region}\nwind = 0.5\n[[force]]\nthrough = 3\n\
+         vector = [-40, 0, 0]"
+    );
+    let scene = Scene::parse(&text, &at("s.toml"), &[]).map_err(|e| e.to_string())?;
+    let built = scene.build(Shown::All).map_err(|e| e.to_string())?;
+    Ok(((0..8).map(z).collect(), weights(&built)))
+}
+
+/// Greys that rise linearly along z.
+const RISING: [&str; 5] = ["0 0 0", "0 0 0", "1 1 1", "1 1 1", "0 0 0"];
+
+#[test]
+fn a_weight_that_is_linear_on_the_heads_mesh_is_linear_at_the_roots() {
+    let head = coloured(RISING);
+    for name in ["color", "color.g"] {
+        let (z, found) = by_colour(&head, &format!("attribute = \"{name}\""), "").unwrap();
+        for (z, weight) in z.iter().zip(&found) {
+            let expected = f64::from(z + 10.0) / 20.0;
+            assert!((weight - expected).abs() < 1e-5, "{name} at {z}: {weight}, not {expected}");
+        }
+    }
+    // The same numbers on the hair itself make the same region.
+    let of_hair: Vec<String> = (0..8).map(|s| format!("{}", (1.25 + 2.5 * s as f32) / 20.0)).collect();
+    let of_hair = format!("    float[] primvars:mask = [{}] ( interpolation = \"uniform\" )", of_hair.join(", "));
+    let (_, on_hair) = by_colour(&head, "attribute = \"mask\"", &of_hair).unwrap();
+    let (_, on_head) = by_colour(&head, "attribute = \"color\"", "").unwrap();
+    assert!(on_hair.iter().zip(&on_head).all(|(a, b)| (a - b).abs() < 1e-5), "{on_hair:?} {on_head:?}");
+}
+
+#[test]
+fn numbers_of_parts_on_the_heads_mesh_are_not_mixed() {
+    let head = coloured(["3 3 3", "3 3 3", "7 7 7", "7 7 7", "5 5 5"]);
+    let (z, found) = by_colour(&head, "attribute = \"color\"\nvalues = [7, 9]", "").unwrap();
+    // The corner with the largest share decides: at x = 2, those with 7 have it from z = 2 on.
+    let expected: Vec<f64> = z.iter().map(|&z| f64::from(u8::from(z > 2.0))).collect();
+    assert_eq!(found, expected);
+    let (_, none) = by_colour(&head, "attribute = \"color\"\nvalues = [4, 5, 6]", "").unwrap();
+    assert_eq!(none, [0.0; 8]);
+}
+
+#[test]
+fn weights_of_the_head_that_are_not_there_or_none_are_refused() {
+    let head = coloured(["2 2 2"; 5]);
+    let said = by_colour(&head, "attribute = \"color\"", "").unwrap_err();
+    let line = "free.regions[0].attribute = \"color\": is 2 on the head's mesh at the root of strand 0 of 8, but must be 0 to 1: \
+                correct it in its file";
+    assert!(said.contains(line), "{said}");
+    let said = by_colour(&head, "attribute = \"fringe\"", "").unwrap_err();
+    let line = "free.regions[0].attribute = \"fringe\": the hair has no attributes with one number per strand or point, and the \
+                head's mesh has color";
+    assert!(said.contains(line), "{said}");
+}
+
+/// Hair that is grown has the weights of its head, and another painting is another motion.
+#[test]
+fn grown_hair_belongs_by_the_colours_of_its_head() {
+    let folder = tempfile::tempdir().unwrap();
+    let built = |blue: f32, region: &str| {
+        std::fs::write(folder.path().join("head.obj"), ball(blue)).unwrap();
+        let text = format!(
+            "[motion]\nform = \"free\"\n[head]\nmesh = \"head.obj\"\nellipsoid = {{ center = [0, 0, 0], half_axes = [9, 9, 9] }}\n\
+             [hair]\nstrands = 200\n[[free.regions]]\n{region}\nwind = 0.5\n[[force]]\nthrough = 3\nvector = [-40, 0, 0]"
+        );
+        Scene::parse(&text, &folder.path().join("s.toml"), &[]).unwrap().build(Shown::All).unwrap()
+    };
+    let red = "attribute = \"color.r\"";
+    let first = built(0.0, red);
+    for (strand, weight) in first.strands().iter().zip(weights(&first)) {
+        let expected = f64::from((strand[0].x + 9.0) / 18.0);
+        assert!((weight - expected).abs() < 0.01, "{}: {weight}, not {expected}", strand[0]);
+    }
+    let blue = "attribute = \"color.b\"";
+    let identity = |of: f32, region: &str| built(of, region).identity().unwrap();
+    assert_ne!(identity(0.25, blue), identity(0.5, blue));
+    assert_eq!(identity(0.25, red), identity(0.5, red));
+    assert_eq!(identity(0.25, blue), identity(0.25, blue));
+}
+
+/// A ball of 9 cm whose red rises linearly from 0 to 1 along x, with as much blue everywhere.
+fn ball(blue: f32) -> String {
+    const RINGS: usize = 24;
+    const AROUND: usize = 48;
+    let mut text = String::new();
+    let mut vertex = |turn: f32, across: f32| {
+        let (height, radius) = (9.0 * across.cos(), 9.0 * across.sin());
+        let (x, z) = (radius * turn.cos(), radius * turn.sin());
+        writeln!(text, "v {x} {height} {z} {} 0 {blue}", ((x + 9.0) / 18.0).clamp(0.0, 1.0)).unwrap();
+    };
+    vertex(0.0, 0.0);
+    for ring in 1..RINGS {
+        for i in 0..AROUND {
+            let of = |k: usize, n: usize| k as f32 / n as f32 * std::f32::consts::PI;
+            vertex(2.0 * of(i, AROUND), of(ring, RINGS));
+        }
+    }
+    vertex(0.0, std::f32::consts::PI);
+    let at = |ring: usize, i: usize| 2 + (ring - 1) * AROUND + i % AROUND;
+    let last = 2 + (RINGS - 1) * AROUND;
+    for i in 0..AROUND {
+        writeln!(text, "f 1 {} {}\nf {last} {} {}", at(1, i + 1), at(1, i), at(RINGS - 1, i), at(RINGS - 1, i + 1))
+            .unwrap();
+        for ring in 1..RINGS - 1 {
+            let [a, b, c, d] = [at(ring, i), at(ring, i + 1), at(ring + 1, i + 1), at(ring + 1, i)];
+            writeln!(text, "f {a} {b} {c} {d}").unwrap();
+        }
+    }
+    text
 }

@@ -53,7 +53,7 @@ fn skin() -> Mesh {
     Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].into_iter().map(|p| 8.0 * p).collect(),
         triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
-        corner_uvs: None,
+        ..Mesh::default()
     }
 }
 

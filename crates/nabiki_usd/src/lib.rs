@@ -37,6 +37,7 @@ mod instances;
 mod layer;
 mod meshes;
 mod opened;
+mod painted;
 mod primvars;
 mod read;
 mod rig;

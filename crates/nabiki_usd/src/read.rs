@@ -7,8 +7,8 @@ use nabiki::{Hair, Mesh};
 use nabiki_exchange::attributes::NamedValues;
 use nabiki_exchange::curves::{Basis, Shape, checked_counts};
 use nabiki_exchange::{
-    Closed, Contents, Course, Frames, Gathered, GroomReader, InPlace, Kept, LeftOut, MOST_FRAMES, Placed, Polygons,
-    Prim, PrimKind, Uvs, add_polygons,
+    Canvas, Closed, Contents, Course, Frames, Gathered, GroomReader, InPlace, Kept, LeftOut, MOST_FRAMES, Placed,
+    Polygons, Prim, PrimKind, Uvs, add_polygons,
 };
 
 use crate::Problem;
@@ -17,6 +17,7 @@ use crate::blend::BlendShapes;
 use crate::instances;
 use crate::meshes;
 use crate::opened::Layer;
+use crate::painted;
 use crate::primvars::Primvars;
 use crate::skeleton::{self, Joint};
 use crate::skin::{Skin, Stance};
@@ -427,8 +428,11 @@ impl GroomReader for StageReader {
                 Err(why) => (None, Some(why)),
             };
             let polygons = Polygons { positions: &points, counts: &counts, corners: &corners, clockwise, uvs };
+            let first = mesh.positions.len();
             let misfit = add_polygons(&mut mesh, polygons, &world).map_err(|e| problem(&e.0))?;
             lost.extend(none.or(misfit).map(|why| format!("texture coordinates of {path}: {why}")));
+            let canvas = Canvas { vertices: points.len(), corners: &corners };
+            lost.extend(painted::add(&mut self.layer, prim, time, canvas, (&mut mesh, first)));
         }
         match mesh.positions.iter().find(|p| !p.is_finite()) {
             Some(p) => Err(Problem(format!("has a vertex at {p}, which is not finite"))),

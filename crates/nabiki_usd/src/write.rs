@@ -362,7 +362,7 @@ mod tests {
         let skin = nabiki::Mesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
             triangles: vec![[0, 1, 2]],
-            corner_uvs: None,
+            ..nabiki::Mesh::default()
         };
         let folder = tempfile::tempdir().unwrap();
         for name in ["hair.usda", "hair.usdc"] {

@@ -295,6 +295,31 @@ fn a_head_whose_texture_coordinates_are_none_keeps_its_shape_and_that_is_said() 
 }
 
 #[test]
+fn numbers_and_colours_of_vertices_and_corners_are_weights() {
+    let corners = "[1, 0.5, 0.25, 9, 9, 0, 9, 9, 9, 9, 9, 9] ( interpolation = \"faceVarying\" )";
+    let more = format!(
+        "float[] primvars:fringe = [0, 0.25, 0.5, 1] ( interpolation = \"vertex\" )\n\
+         float[] primvars:corners = {corners}\n\
+         int[] primvars:part = [3, 7] ( interpolation = \"varying\" )\n int[] primvars:part:indices = [0, 1, 1, 0]\n\
+         color3f[] primvars:displayColor = [(1, 1, 1), (0, 1, 0), (0, 0, 0), (1, 1, 1)] ( interpolation = \"vertex\" )\n\
+         color4f[] primvars:Cd = [(1, 1, 1, 0.5)] ( interpolation = \"constant\" )\n\
+         normal3f[] primvars:normals = [(0, 0, 1), (0, 0, 1), (0, 0, 1), (0, 0, 1)] ( interpolation = \"vertex\" )\n\
+         float[] primvars:short = [1, 0] ( interpolation = \"vertex\" )\n\
+         string[] primvars:word = [\"a\", \"b\", \"c\", \"d\"] ( interpolation = \"vertex\" )\n"
+    );
+    let (found, losses) = reader(&mesh("head", &more)).meshes_with_losses(&|_| true).unwrap();
+    let of = |name: &str| found.weights_named(name).map(|weights| weights.values.clone());
+    assert_eq!(found.weight_names().collect::<Vec<_>>(), ["corners", "displayColor", "fringe", "part"]);
+    assert_eq!(of("fringe"), Some(vec![0.0, 0.25, 0.5, 1.0]));
+    // The corners name the vertices 0, 2, 1, 0, 1, 3 and so on.
+    assert_eq!(of("corners"), Some(vec![1.0, 0.25, 0.5, 0.0]));
+    assert_eq!(of("part"), Some(vec![3.0, 7.0, 7.0, 3.0]));
+    assert_eq!(of("displayColor"), Some(vec![1.0, 0.7152, 0.0, 1.0]));
+    assert_eq!(of("displayColor.g"), Some(vec![1.0, 1.0, 0.0, 1.0]));
+    assert_eq!(losses, ["short of /head: 2 for 4 vertices"]);
+}
+
+#[test]
 fn curves_of_types_that_are_not_read_are_said_beside_those_that_are() {
     for kind in ["NurbsCurves", "HermiteCurves"] {
         let other = curve("n", "").replace("BasisCurves", kind);

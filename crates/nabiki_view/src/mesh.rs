@@ -71,7 +71,7 @@ impl Surface {
     pub fn bent(&self, mesh: &Mesh, vertices: Option<&[Vec3]>) -> Self {
         let mut bent = self.clone();
         if let Some(vertices) = vertices {
-            let mesh = Mesh { positions: vertices.to_vec(), triangles: mesh.triangles.clone(), corner_uvs: None };
+            let mesh = Mesh { positions: vertices.to_vec(), triangles: mesh.triangles.clone(), ..Mesh::default() };
             for ((corner, place), normal) in bent.corners.iter_mut().zip(vertices).zip(mesh.vertex_normals()) {
                 (corner.place, corner.normal) = (place.to_array(), normal.to_array());
             }

@@ -17,7 +17,7 @@ pub(crate) struct Nearest {
 
 impl Nearest {
     pub fn new(points: &[Vec3], triangles: &[[u32; 3]]) -> Self {
-        let mesh = Mesh { positions: points.to_vec(), triangles: triangles.to_vec(), corner_uvs: None };
+        let mesh = Mesh { positions: points.to_vec(), triangles: triangles.to_vec(), ..Mesh::default() };
         let mut numbers = HashMap::with_capacity(triangles.len());
         for (number, triangle) in triangles.iter().enumerate() {
             // Of triangles in the same place, the first.

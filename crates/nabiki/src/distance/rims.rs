@@ -9,7 +9,7 @@ use crate::Mesh;
 /// The mesh with duplicate vertices joined (those at exactly the same place, as texture seams leave them) and a fan of
 /// triangles from the middle of each open rim.
 pub(crate) fn closed(mesh: &Mesh) -> Mesh {
-    let mut closed = Mesh { positions: mesh.positions.clone(), triangles: joined(mesh), corner_uvs: None };
+    let mut closed = Mesh { positions: mesh.positions.clone(), triangles: joined(mesh), ..Mesh::default() };
     for rim in rims(&closed.triangles) {
         let middle = middle(&rim, &closed.positions);
         let hub = closed.positions.len() as u32;

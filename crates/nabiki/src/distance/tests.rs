@@ -10,7 +10,7 @@ fn cuboid(half: Vec3) -> Mesh {
     Mesh {
         positions: (0..8).map(corner).collect(),
         triangles: sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
-        corner_uvs: None,
+        ..Mesh::default()
     }
 }
 

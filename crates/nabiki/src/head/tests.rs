@@ -121,7 +121,7 @@ proptest::proptest! {
         let positions: Vec<Vec3> = corners.iter().map(|&(x, y, z)| vec3(x, lift * y, z)).collect();
         let count = positions.len() as u32;
         let triangles = picks.iter().map(|&(a, b, c)| [a, b % count, c % count]).collect();
-        let mesh = Mesh { positions, triangles, corner_uvs: None };
+        let mesh = Mesh { positions, triangles, ..Mesh::default() };
         let given = Ellipsoid { center: Vec3::ZERO, half_axes: vec3(9.0, 10.0, 8.0) };
         if let Ok(head) = Head::from_mesh(mesh, (!fit).then_some(given)) {
             proptest::prop_assert!(head.distance(Vec3::ZERO).is_finite());

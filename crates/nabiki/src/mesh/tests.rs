@@ -20,7 +20,7 @@ fn uneven_sphere(centre: Vec3, radius: f32) -> Mesh {
             triangles.extend(if (ring + turn) % 3 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
         }
     }
-    Mesh { positions, triangles, corner_uvs: None }
+    Mesh { positions, triangles, ..Mesh::default() }
 }
 
 // Max (1999): where all neighbours of a vertex lie on a sphere with it, the weighted sum points along the radius,
@@ -50,7 +50,7 @@ fn the_corner_of_a_cube_looks_along_its_diagonal_however_its_sides_are_cut() {
         .enumerate()
         .flat_map(|(i, &[a, b, c, d])| if i % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] })
         .collect();
-    let mesh = Mesh { positions, triangles, corner_uvs: None };
+    let mesh = Mesh { positions, triangles, ..Mesh::default() };
     for (place, normal) in mesh.positions.iter().zip(mesh.vertex_normals()) {
         assert!(normal.distance((*place - 0.5).normalize()) < 1e-6, "{place}: {normal}");
     }
@@ -60,6 +60,6 @@ fn the_corner_of_a_cube_looks_along_its_diagonal_however_its_sides_are_cut() {
 fn triangles_without_an_area_have_no_say() {
     let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ZERO, 2.0 * Vec3::X, Vec3::splat(1.0e30)];
     let triangles = vec![[0, 1, 2], [0, 3, 2], [0, 1, 4]];
-    let normals = Mesh { positions, triangles, corner_uvs: None }.vertex_normals();
+    let normals = Mesh { positions, triangles, ..Mesh::default() }.vertex_normals();
     assert_eq!(normals, [Vec3::Z, Vec3::Z, Vec3::Z, Vec3::Y, Vec3::Y, Vec3::Y]);
 }

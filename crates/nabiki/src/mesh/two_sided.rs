@@ -126,7 +126,7 @@ mod tests {
         if two_sides {
             triangles.extend(other.iter().flat_map(cut));
         }
-        Mesh { positions: (0..8).map(corner).collect(), triangles, corner_uvs: None }
+        Mesh { positions: (0..8).map(corner).collect(), triangles, ..Mesh::default() }
     }
 
     #[test]

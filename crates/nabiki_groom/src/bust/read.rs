@@ -115,7 +115,7 @@ pub fn mesh(bust: &Quantised) -> Mesh {
         let [a, b, c] = triangles[t].map(|v| mirrored[v as usize]);
         triangles.push([a, c, b]);
     }
-    Mesh { positions, triangles, corner_uvs: None }
+    Mesh { positions, triangles, ..Mesh::default() }
 }
 
 /// A quadrilateral as two triangles, cut along its shorter diagonal.

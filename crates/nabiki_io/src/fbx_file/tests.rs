@@ -62,6 +62,20 @@ fn polygons_become_triangles_where_their_nodes_have_them_in_the_unit_and_axes_of
 }
 
 #[test]
+fn a_vertex_has_the_colour_of_its_first_corner() {
+    let mut text = Text::plain();
+    let grey = |x: f64| [x, x, x, 1.0];
+    let layers =
+        Text::colours("fringe", &[grey(0.25), grey(0.5), grey(1.0), grey(0.0), grey(0.0), [0.0, 1.0, 0.0, 0.5]]);
+    text.node(1, "face", "Mesh", 0, &[]).mesh_with(2, 1, &SQUARE, &[&[0, 1, 2], &[0, 2, 3]], &layers);
+    let found = mesh(&text.bytes(), &[]).unwrap().0;
+    let of = |name: &str| found.weights_named(name).map(|weights| weights.values.clone());
+    assert_eq!(found.weight_names().collect::<Vec<_>>(), ["fringe"]);
+    assert_eq!(of("fringe"), Some(vec![0.25, 0.5, 1.0, 0.7152]));
+    assert_eq!(of("fringe.a"), Some(vec![1.0, 1.0, 1.0, 0.5]));
+}
+
+#[test]
 fn a_file_of_a_left_hand_is_seen_in_the_mirror() {
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
     let faces: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[0, 3, 2], &[1, 2, 3]];

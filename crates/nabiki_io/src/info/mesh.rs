@@ -38,6 +38,9 @@ pub struct MeshInfo {
     pub open_edges: usize,
     /// Edges with more than two triangles.
     pub crowded_edges: usize,
+    /// Names of the weights and colours of its vertices.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub vertex_attributes: Vec<String>,
     /// Phrases about data of the file's meshes that is not used.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub unread: Vec<String>,
@@ -135,6 +138,7 @@ impl MeshInfo {
             crowded_edges: edges.values().filter(|&&n| n > 2).count(),
             guess: Some(Guess { likely_unit: likely_unit(bounds.max[1] - bounds.min[1]), likely_up: None }),
             bounds,
+            vertex_attributes: mesh.weight_names().map(str::to_owned).collect(),
             unread: Vec::new(),
             unit_cm: None,
             up: None,
@@ -169,6 +173,9 @@ impl fmt::Display for MeshInfo {
             writeln!(f, "edges: {} open, {} with more than two triangles", self.open_edges, self.crowded_edges)?;
             let (doubled, degenerate) = (self.doubled_vertices, self.degenerate_triangles);
             write!(f, "degenerate: {degenerate} triangles without area; {doubled} doubled vertices")?;
+        }
+        if !self.vertex_attributes.is_empty() {
+            write!(f, "\nvertex attributes: {}", list(&self.vertex_attributes))?;
         }
         for unread in &self.unread {
             write!(f, "\nnot read: {}", OneLine(unread))?;
@@ -211,10 +218,21 @@ mod tests {
     use glam::Vec3;
 
     #[test]
+    fn vertex_attributes_are_named_once_each_colour() {
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        let mut mesh = Mesh { positions, triangles: vec![[0, 1, 2]], ..Mesh::default() };
+        assert!(!MeshInfo::of(&mesh).to_string().contains("vertex attributes"));
+        mesh.add_colours("COLOR_0", 0, 3, &[0.5; 9]);
+        mesh.add_weights("_FRINGE", 0, [0.0, 1.0, 1.0].into_iter());
+        let said = MeshInfo::of(&mesh).to_string();
+        assert!(said.contains("\nvertex attributes: COLOR_0, _FRINGE\n"), "{said}");
+    }
+
+    #[test]
     fn edges_of_one_triangle_are_open_and_those_of_more_than_two_crowded() {
         let edges = |triangles: &[[u32; 3]]| {
             let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_Y];
-            let info = MeshInfo::of(&Mesh { positions, triangles: triangles.to_vec(), corner_uvs: None });
+            let info = MeshInfo::of(&Mesh { positions, triangles: triangles.to_vec(), ..Mesh::default() });
             (info.open_edges, info.crowded_edges)
         };
         assert_eq!(edges(&[[0, 1, 2]]), (3, 0));

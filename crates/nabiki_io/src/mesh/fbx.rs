@@ -1,5 +1,6 @@
 //! Meshes of FBX at rest, and bent by an animation.
 
+mod painted;
 mod skin;
 
 use std::collections::HashSet;
@@ -271,6 +272,9 @@ impl<'a> Part<'a> {
                 let triangle = if self.mirrored { [a, c, b] } else { [a, b, c] };
                 push_fan(mesh, &triangle.map(|corner| (first + vertex(corner), uv(corner))));
             }
+        }
+        for (name, why) in painted::add(self.mesh, &document.budget, mesh, first as usize) {
+            unread.push(format!("{name} of {}: {why}", self.name()));
         }
         unread.extend(self.bends());
         Ok(())

@@ -1,6 +1,7 @@
 //! glTF 2.0, .glb and .gltf, by way of the crate gltf: triangles of the default scene in its still pose, the one that it has without
 //! its animations: node transforms applied, skins by their joints, morphs by the file's own weights.
 
+mod painted;
 mod skin;
 
 use std::path::Path;
@@ -282,6 +283,9 @@ impl<'a> Part<'a> {
         for [a, b, c] in self::triangles(self.primitive.mode(), &indices) {
             let corners = if self.mirrored { [a, c, b] } else { [a, b, c] };
             mesh.push(corners.map(|v| first + v), uvs.as_ref().map(|uvs| corners.map(|v| uvs[v as usize])));
+        }
+        for (name, why) in painted::add(&self.primitive, buffers, mesh, first as usize, count) {
+            unread.push(format!("{name} of {}: {why}", self.name()));
         }
         unread.extend(self.bends());
         Ok(())

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec2;
 use nabiki::Mesh;
-use nabiki_exchange::Budget;
+use nabiki_exchange::{Budget, Painted};
 
 use super::{
     TRIANGLE_BYTES,
@@ -16,10 +16,15 @@ use crate::{
     obj_text,
 };
 
+/// The name of vertex colours, which have none in the file.
+pub(super) const COLOUR: &str = "color";
+
 /// `groups`: names that follow a `g` or an `o`; faces under any of them are kept, all where there are none. `lost`: what of the
 /// texture coordinates is left out is put there; the shape does without.
 pub(super) fn from_bytes(bytes: &[u8], groups: &[String], lost: &mut Vec<String>) -> Result<Mesh> {
     let mut mesh = Mesh::default();
+    // Red, green and blue of the vertices, as far as they have any.
+    let mut colours: Vec<f32> = Vec::new();
     // `None` keeps the number of one that is none.
     let mut uvs: Vec<Option<Vec2>> = Vec::new();
     let mut wrong_uv: Option<Error> = None;
@@ -32,7 +37,13 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String], lost: &mut Vec<String>
     for (i, line) in text.lines().enumerate() {
         let mut words = obj_text::words(line);
         match words.next() {
-            Some("v") => mesh.positions.push(obj_text::place(words, line, i + 1)?),
+            Some("v") => {
+                if let Some(colour) = obj_text::colour(words.clone()) {
+                    colours.resize(3 * mesh.positions.len(), 0.0);
+                    colours.extend(colour);
+                }
+                mesh.positions.push(obj_text::place(words, line, i + 1)?);
+            }
             Some("vt") => {
                 let uv = obj_text::texture_coordinates(words, line, i + 1);
                 uvs.push(uv.map_err(|e| wrong_uv.get_or_insert(e)).ok());
@@ -71,6 +82,11 @@ pub(super) fn from_bytes(bytes: &[u8], groups: &[String], lost: &mut Vec<String>
     if let Some(Error { what, line, .. }) = wrong_uv.filter(|_| mesh.corner_uvs.is_none()) {
         lost.push(format!("texture coordinates: line {}: {what}", line.unwrap_or(0)));
     }
+    if !colours.is_empty() {
+        let painted = Painted { name: COLOUR.to_owned(), extent: 3, numbers: colours };
+        let added = painted.add_to(&mut mesh, 0, &budget);
+        lost.extend(added.err().map(|why| format!("{COLOUR}: {why}")));
+    }
     check(only_used(mesh), lost)
 }
 
@@ -92,7 +108,7 @@ pub(super) fn groups(bytes: &[u8]) -> Vec<(String, usize)> {
 }
 
 /// Leaves out the vertices of other groups, and those of no face.
-fn only_used(Mesh { positions, mut triangles, corner_uvs }: Mesh) -> Mesh {
+fn only_used(Mesh { positions, mut triangles, corner_uvs, weights }: Mesh) -> Mesh {
     let mut number = vec![u32::MAX; positions.len()];
     for &v in triangles.iter().flatten() {
         number[v as usize] = 0;
@@ -103,6 +119,8 @@ fn only_used(Mesh { positions, mut triangles, corner_uvs }: Mesh) -> Mesh {
     for v in triangles.iter_mut().flatten() {
         *v = number[*v as usize];
     }
-    let kept = positions.iter().zip(&number).filter(|&(_, &n)| n != u32::MAX);
-    Mesh { positions: kept.map(|(p, _)| *p).collect(), triangles, corner_uvs }
+    let kept = || (0..).zip(&number).filter(|&(_, &n)| n != u32::MAX).map(|(v, _)| v);
+    let weights = weights.iter().map(|weights| weights.of_vertices(kept())).collect();
+    let positions = kept().map(|v: u32| positions[v as usize]).collect();
+    Mesh { positions, triangles, corner_uvs, weights }
 }

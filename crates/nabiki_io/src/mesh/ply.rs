@@ -1,11 +1,14 @@
 //! Stanford .ply: a text header that names elements and their properties, then those, as text or binary.
 
+mod columns;
+
 use glam::{Vec2, Vec3};
 use nabiki::Mesh;
 use nabiki_exchange::Budget;
 
 use super::{TRIANGLE_BYTES, VERTEX_BYTES, check::check, push_fan};
 use crate::error::{Error, Result};
+use columns::Columns;
 
 /// How the body is written.
 #[derive(Clone, Copy, PartialEq)]
@@ -71,8 +74,9 @@ struct Element {
 const UV: [[&str; 2]; 3] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"]];
 
 /// Reads the vertices and faces; larger polygons become fans, other elements are passed over. Texture coordinates are
-/// those that the faces list for their corners (`texcoord`), else those of the vertices. `lost`: what of them is left out is put
-/// there; the shape does without.
+/// those that the faces list for their corners (`texcoord`), else those of the vertices. Further numbers of the
+/// vertices are their weights. `lost`: what of these and of the texture coordinates is left out is put there; the shape does
+/// without.
 pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
     let (encoding, elements, body) = header(bytes)?;
     check_counts(encoding, &elements, body)?;
@@ -85,6 +89,8 @@ pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
         let [u, v] = UV.map(|names| names.map(place)).into_iter().find(|uv| !uv.contains(&None)).unwrap_or_default();
         let wanted = [place("x"), place("y"), place("z"), u, v];
         let is_face = element.name == "face";
+        let first = mesh.positions.len();
+        let mut columns = Columns::of(element, &wanted);
         for i in 0..element.count {
             let mut vertex = [0.0f32; 5];
             let (mut face, mut texcoord) = (Vec::new(), Vec::new());
@@ -105,6 +111,7 @@ pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
                     if let Some(part) = wanted.iter().position(|&w| w == Some(p)) {
                         vertex[part] = value as f32;
                     }
+                    columns.take(p, value, &budget)?;
                     if let Some(list) = &mut list {
                         list.push(value);
                     }
@@ -120,6 +127,7 @@ pub fn from_bytes(bytes: &[u8], lost: &mut Vec<String>) -> Result<Mesh> {
                 uvs.extend(u.map(|_| Vec2::new(s, t)));
             }
         }
+        columns.add_to(&mut mesh, first, &budget, lost);
     }
     let vertices = mesh.positions.len();
     if let Some(v) = mesh.triangles.iter().flatten().find(|&&v| v as usize >= vertices) {
@@ -301,6 +309,23 @@ mod tests {
         assert_eq!(mesh.positions[2], Vec3::new(1.0, 1.0, 0.5));
         assert_eq!(from_bytes(&binary(false)).unwrap(), mesh);
         assert_eq!(from_bytes(&binary(true)).unwrap(), mesh);
+    }
+
+    #[test]
+    fn further_numbers_of_vertices_are_weights_and_colours_are_shares() {
+        let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                    property float nx\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty float quality\n\
+                    property uchar part\nelement face 1\nproperty list uchar int vertex_index\nend_header\n\
+                    0 0 0 1 255 255 255 0.5 3\n1 0 0 1 51 51 51 1 7\n0 1 0 1 0 255 0 0 7\n3 0 1 2\n";
+        let mesh = from_bytes(text.as_bytes()).unwrap();
+        let of = |name: &str| mesh.weights_named(name).map(|weights| weights.values.clone());
+        assert_eq!(mesh.weight_names().collect::<Vec<_>>(), ["color", "quality", "part"]);
+        assert_eq!(of("color.r"), Some(vec![1.0, 0.2, 0.0]));
+        assert_eq!(of("color"), Some(vec![1.0, 0.2, 0.7152]));
+        assert_eq!(of("quality"), Some(vec![0.5, 1.0, 0.0]));
+        assert_eq!(of("part"), Some(vec![3.0, 7.0, 7.0]));
+        // One channel alone is no colour.
+        assert_eq!(from_bytes(&super::tests::text()).unwrap().weights_named("red").unwrap().values, [9.0; 4]);
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub(super) fn from_bytes(bytes: &[u8]) -> Result<Mesh> {
         };
         triangles.push([a, b, c]);
     }
-    check(Mesh { positions, triangles, corner_uvs: None }, &mut Vec::new())
+    check(Mesh { positions, triangles, ..Mesh::default() }, &mut Vec::new())
 }
 
 fn next<'a>(lines: &mut Lines<'a>, wanted: &str) -> Result<(usize, &'a str)> {

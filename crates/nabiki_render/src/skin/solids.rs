@@ -66,5 +66,5 @@ impl Solids {
 /// A body's mesh where it is in head space.
 pub fn placed(mesh: &Mesh, place: &Affine3A) -> Mesh {
     let positions = mesh.positions.iter().map(|&p| place.transform_point3(p)).collect();
-    Mesh { positions, triangles: mesh.triangles.clone(), corner_uvs: None }
+    Mesh { positions, triangles: mesh.triangles.clone(), ..Mesh::default() }
 }

@@ -160,6 +160,11 @@ impl Groom {
         self.inputs.selectors.maps()
     }
 
+    /// The names of the attributes that its regions go by.
+    pub(super) fn attributes(&self) -> impl Iterator<Item = &str> {
+        self.inputs.selectors.attributes()
+    }
+
     /// Its roots; `None` for hair from a file.
     pub(super) fn roots(&self) -> Option<&Arc<Roots>> {
         match &self.inputs.source {

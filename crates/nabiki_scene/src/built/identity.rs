@@ -120,6 +120,12 @@ impl BuiltScene {
                 let uvs = self.model.head.mesh.corner_uvs.as_deref().unwrap_or_default();
                 add_numbers(digest, "uvs", bytemuck::cast_slice(uvs.as_flattened()));
             }
+            // It has no attributes of its own: those are of the head's mesh.
+            let mesh = &self.model.head.mesh;
+            for weights in self.groom.attributes().filter_map(|name| mesh.weights_named(name)) {
+                add_mesh(digest, mesh);
+                add_numbers(digest, "weights", &weights.values);
+            }
         }
         // Accelerations are per second.
         digest.settings("frame_rate", &[self.dynamics.motion.frame_rate])?;

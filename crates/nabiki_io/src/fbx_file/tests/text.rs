@@ -87,6 +87,18 @@ impl Text {
 
     /// A mesh of polygons at a node.
     pub fn mesh(&mut self, number: u32, node: u32, vertices: &[[f64; 3]], polygons: &[&[usize]]) -> &mut Self {
+        self.mesh_with(number, node, vertices, polygons, "")
+    }
+
+    /// The same, with further layers.
+    pub fn mesh_with(
+        &mut self,
+        number: u32,
+        node: u32,
+        vertices: &[[f64; 3]],
+        polygons: &[&[usize]],
+        layers: &str,
+    ) -> &mut Self {
         let ends = |polygon: &&[usize]| {
             let last = polygon.len() - 1;
             polygon
@@ -96,8 +108,19 @@ impl Text {
                 .collect::<Vec<_>>()
         };
         let inside = array("Vertices", vertices.iter().flatten().copied())
-            + &array("PolygonVertexIndex", polygons.iter().flat_map(ends));
+            + &array("PolygonVertexIndex", polygons.iter().flat_map(ends))
+            + layers;
         self.object("Geometry", number, "Geometry::", "Mesh", &inside).below(number, node)
+    }
+
+    /// A layer of colours for the corners of a mesh.
+    pub fn colours(name: &str, colours: &[[f64; 4]]) -> String {
+        format!(
+            "LayerElementColor: 0 {{\nVersion: 101\nName: \"{name}\"\nMappingInformationType: \"ByPolygonVertex\"\n\
+             ReferenceInformationType: \"Direct\"\n{}}}\nLayer: 0 {{\nVersion: 100\nLayerElement: {{\n\
+             Type: \"LayerElementColor\"\nTypedIndex: 0\n}}\n}}\n",
+            array("Colors", colours.iter().flatten().copied())
+        )
     }
 
     /// A skin of a mesh.

@@ -19,6 +19,54 @@ fn glb(component: u32, normalised: bool, uvs: &[u8], without: bool) -> Vec<u8> {
     crate::gltf_file::tests::glb(&json, &binary)
 }
 
+/// A .glb of a triangle whose vertices have a colour of a component type and shape, and a number each.
+fn coloured((component, shape): (u32, &str), colours: &[u8], parts: &[u8; 12]) -> Vec<u8> {
+    let (bytes, whole) = (colours.len(), 48 + colours.len());
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"name":"head"}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"_PART":1,"COLOR_0":2}}}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+        {{"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR"}},
+        {{"bufferView":2,"componentType":{component},"normalized":{},"count":3,"type":"{shape}"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":12}},
+        {{"buffer":0,"byteOffset":48,"byteLength":{bytes}}}],"buffers":[{{"byteLength":{whole}}}]}}"#,
+        component != 5126
+    );
+    let mut binary = [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
+    binary.extend(parts);
+    binary.extend(colours);
+    crate::gltf_file::tests::glb(&json, &binary)
+}
+
+#[test]
+fn colours_of_every_component_type_are_shares_and_numbers_stand_for_themselves() {
+    let mut parts = [0; 12];
+    for (to, part) in parts.chunks_exact_mut(4).zip([3.0f32, 7.0, 7.0]) {
+        to.copy_from_slice(&part.to_le_bytes());
+    }
+    // Grey, green and white, the last two half transparent.
+    let bytes = [51u8, 51, 51, 255, 0, 255, 0, 51, 255, 255, 255, 51];
+    let shorts: Vec<u8> = bytes.iter().flat_map(|&b| (u16::from(b) * 257).to_le_bytes()).collect();
+    let floats: Vec<u8> = bytes.iter().flat_map(|&b| (f32::from(b) / 255.0).to_le_bytes()).collect();
+    for (component, colours) in [(5121, &bytes[..]), (5123, &shorts), (5126, &floats)] {
+        let (mesh, unread) = from_bytes(&coloured((component, "VEC4"), colours, &parts), None, &[]).unwrap();
+        let of = |name: &str| mesh.weights_named(name).map(|weights| weights.values.clone());
+        assert_eq!(of("COLOR_0"), Some(vec![0.2, 0.7152, 1.0]), "{component}");
+        assert_eq!(of("COLOR_0.g"), Some(vec![0.2, 1.0, 1.0]), "{component}");
+        assert_eq!(of("COLOR_0.a"), Some(vec![1.0, 0.2, 0.2]), "{component}");
+        assert_eq!(of("_PART"), Some(vec![3.0, 7.0, 7.0]), "{component}");
+        assert!(unread.is_empty(), "{unread:?}");
+    }
+    let rgb: Vec<u8> = [0.25f32; 9].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let mesh = from_bytes(&coloured((5126, "VEC3"), &rgb, &parts), None, &[]).unwrap().0;
+    assert_eq!(mesh.weights_named("COLOR_0").map(|of| of.values.clone()), Some(vec![0.25; 3]));
+    assert_eq!(mesh.weights_named("COLOR_0.a"), None);
+    // What cannot be read costs itself and not the mesh.
+    let (mesh, unread) = from_bytes(&coloured((5126, "VEC4"), &rgb, &parts), None, &[]).unwrap();
+    assert_eq!((mesh.triangles.len(), mesh.weight_names().collect::<Vec<_>>()), (1, vec!["_PART"]));
+    assert_eq!(unread, ["COLOR_0 of head: accessor 2: 3 items reach past their buffer"]);
+}
+
 #[test]
 fn nodes_are_carried_by_those_above_them_and_vertices_may_be_interleaved() {
     // Three vertices of a place and of texture coordinates each, behind four bytes of something else.

@@ -6,7 +6,7 @@ fn a_plate_hides_the_lamp_from_what_lies_behind_it_only() {
     let plate = Mesh {
         positions: corners.map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
-        corner_uvs: None,
+        ..Mesh::default()
     };
     let lamp = Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.03 };
     let shadow = SolidShadow::new(&lamp, &plate);
@@ -68,7 +68,7 @@ fn skin_that_faces_the_lamp_is_not_in_its_own_shadow() {
 /// A square 12 cm wide that a lamp straight above sees.
 fn under_a_plate(spread: f32) -> SolidShadow {
     let positions = [[-6.0, -6.0], [6.0, -6.0], [6.0, 6.0], [-6.0, 6.0]].map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec();
-    let plate = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None };
+    let plate = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
     SolidShadow::new(&Lamp { toward: Vec3::Y, strength: [1.0; 3], spread }, &plate)
 }
 
@@ -109,7 +109,7 @@ fn the_edge_of_a_shadow_is_as_straight_as_what_throws_it() {
         let turn =
             |[x, z]: [f32; 2]| Vec3::new(x * turned.cos() - z * turned.sin(), 0.0, x * turned.sin() + z * turned.cos());
         let positions = [[-6.0, -6.0], [6.0, -6.0], [6.0, 6.0], [-6.0, 6.0]].map(turn).to_vec();
-        let plate = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None };
+        let plate = Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
         let shadow = SolidShadow::new(&Lamp { toward: Vec3::Y, strength: [1.0; 3], spread: 0.1 }, &plate);
         // The least and the most that is left along lines so far beside the edge (cm).
         let [within, middle, beyond] = [-0.2_f32, 0.0, 0.2].map(|beside| {

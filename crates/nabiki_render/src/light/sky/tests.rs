@@ -5,7 +5,7 @@ use crate::settings::Camera;
 pub(super) fn square(middle: Vec3, along: Vec3, across: Vec3) -> Mesh {
     let positions =
         [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[u, v]| middle + u * along + v * across).to_vec();
-    Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], corner_uvs: None }
+    Mesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
 }
 
 /// Hairs that stand out from a ball of 1 cm, to 5.5 cm from its middle.

@@ -1,4 +1,6 @@
-//! The strands of regions that go by groups or an attribute of the hair, or by a painted map.
+//! The strands of regions that go by groups or an attribute of the hair, by weights of the head's mesh, or by a painted map.
+
+mod weights;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -7,7 +9,6 @@ use std::time::SystemTime;
 
 use glam::{Vec2, Vec3};
 use nabiki::distance::Surface;
-use nabiki::hair::{Other, Per, Values};
 use nabiki::region::{Members, Region};
 use nabiki::{Hair, Head, SettingError};
 use nabiki_io::painted::{self, PaintedMap};
@@ -76,6 +77,11 @@ impl Selectors {
         self.0.iter().flatten().filter_map(|selector| Some(&selector.map.as_ref()?.picture))
     }
 
+    /// The names of the attributes that regions go by.
+    pub fn attributes(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().flatten().filter_map(|selector| selector.attribute.as_deref())
+    }
+
     /// The members of each region among this hair, which stands on this head.
     pub fn members(&self, hair: &[&Hair], head: &Head, names: &Names<'_>) -> Refusable<Vec<Option<Members>>> {
         let of = |(i, selector): (usize, &Option<Selector>)| {
@@ -99,7 +105,7 @@ impl Selector {
             weights.iter_mut().zip(groups).filter(|(_, group)| !chosen.contains(group)).for_each(|(w, _)| *w = 0.0);
         }
         if let Some(name) = &self.attribute {
-            let values = root_values(&format!("{key}.attribute"), hair, name, &self.values)?;
+            let values = weights::at_roots(&format!("{key}.attribute"), hair, head, name, &self.values)?;
             weights.iter_mut().zip(values).for_each(|(weight, value)| *weight *= value as f32);
         }
         if let Some(map) = &self.map {
@@ -176,58 +182,6 @@ impl Map {
         };
         Ok(hair.strands.iter().map(of).collect())
     }
-}
-
-/// The weight by an attribute at each root: its number, or whether that is one of `chosen`, if there are any.
-fn root_values(key: &str, hair: &Hair, name: &str, chosen: &[i32]) -> Refusable<Vec<f64>> {
-    let refused = |why: String| Err(SettingError::new(key, format!("{name:?}"), why));
-    let of = &hair.attributes;
-    let Some(found) = of.other.iter().find(|other| other.name == name) else {
-        let is_it = |line: &&String| line.split(|c: char| !c.is_alphanumeric() && !"_:".contains(c)).any(|w| w == name);
-        if let Some(line) = of.unread.iter().find(is_it) {
-            return refused(format!("the file has it, but it was not read: {line}"));
-        }
-        return refused(
-            match listed(of.other.iter().filter(|other| is_weight(other)).map(|other| other.name.clone())) {
-                Some(known) => format!("no attribute of the hair with one number per strand or point; it has {known}"),
-                None => "the hair has no attributes with one number per strand or point: use near or groups".to_owned(),
-            },
-        );
-    };
-    if !is_weight(found) {
-        let has = match (&found.values, found.per, found.extent) {
-            (Values::Words(_), ..) => "words".to_owned(),
-            (_, Per::Groom, _) => "one value for all the hair".to_owned(),
-            (.., extent) => format!("{extent} numbers each"),
-        };
-        return refused(format!("has {has}, but a weight is one number per strand or point"));
-    }
-    let at = |i: usize| match &found.values {
-        Values::Floats(values) => f64::from(values[i]),
-        Values::Doubles(values) => values[i],
-        Values::Integers(values) => values[i] as f64,
-        Values::Words(_) => f64::NAN,
-    };
-    let index = |s: usize| if found.per == Per::Point { hair.strands.range(s).start } else { s };
-    let values: Vec<f64> = (0..hair.strands.len()).map(|s| at(index(s))).collect();
-    if !chosen.is_empty() {
-        let belongs = |value: &f64| chosen.iter().any(|&of| f64::from(of) == *value);
-        return Ok(values.iter().map(|value| f64::from(u8::from(belongs(value)))).collect());
-    }
-    match values.iter().enumerate().find(|(_, value)| !(0.0..=1.0).contains(*value)) {
-        Some((s, value)) => {
-            let (value, count) = (*value as f32, values.len());
-            refused(format!(
-                "is {value} at the root of strand {s} of {count}, but must be 0 to 1: correct it in the file"
-            ))
-        }
-        None => Ok(values),
-    }
-}
-
-/// Whether an attribute has one number per strand or point.
-fn is_weight(of: &Other) -> bool {
-    of.extent == 1 && of.per != Per::Groom && !matches!(of.values, Values::Words(_))
 }
 
 /// The first of these names, or `None` if there are none.

@@ -41,7 +41,7 @@ fn ball(radius: f32) -> Mesh {
     Mesh {
         positions: (0..(rings + 1) * sides).map(place).collect(),
         triangles: (0..rings).flat_map(|i| (0..sides).flat_map(move |j| square(i, j))).collect(),
-        corner_uvs: None,
+        ..Mesh::default()
     }
 }
 

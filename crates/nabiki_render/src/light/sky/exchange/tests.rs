@@ -18,7 +18,7 @@ fn ball(radius: f32) -> Mesh {
     let triangles = squares
         .flat_map(|(i, j)| [[v(i, j), v(i + 1, j), v(i, j + 1)], [v(i, j + 1), v(i + 1, j), v(i + 1, j + 1)]])
         .collect();
-    outward(Mesh { positions, triangles, corner_uvs: None })
+    outward(Mesh { positions, triangles, ..Mesh::default() })
 }
 
 /// The same mesh, with its front where it faces away from the origin.
