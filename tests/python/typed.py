@@ -44,6 +44,7 @@ def game(scene: nabiki.Scene, head: numpy.typing.NDArray[numpy.float64]) -> byte
     scene.body[1].motion = {"file": [head] * 101, "frames_per_second": 30}
     hair.step(head=head, bodies=[None, head], force=(-100, 0, 0))
     hair.step(head=((0, 10, 0), (0, 0, 0, 1)), force=nabiki.Field(wind, strongest=10), jumped=True)
+    hair.step(skin=numpy.zeros((8, 3)))
     branch = hair.copy()
     light: bytes = scene.render_exr(0, file="light.exr", strands=300)
     assert light
@@ -133,6 +134,7 @@ def errors(scene: nabiki.Scene) -> None:
     scene.timeline()[0].point  # type: ignore[attr-defined]
     scene.simulate().steps()  # type: ignore[attr-defined]
     scene.simulate()[0]  # type: ignore[index]
+    scene.simulate().step(skin=None, skins=[])  # type: ignore[call-arg]
     scene.forces[0].through  # type: ignore[union-attr]
     scene.forces = [(5, 1, 2, 3)]  # type: ignore[list-item]
     scene.forces.append(5)  # type: ignore[arg-type]

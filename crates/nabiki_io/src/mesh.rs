@@ -184,15 +184,17 @@ fn push_fan(mesh: &mut Mesh, polygon: &[(u32, Option<Vec2>)]) {
 }
 
 /// Which vertices of a mesh are left once those at the same place are joined.
-pub(crate) struct Welded {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Welded {
     /// How many it had.
     pub vertices: usize,
     /// The numbers of those that are left, in their order.
     pub kept: Vec<u32>,
 }
 
-/// Those that [`import`] keeps of these positions.
-pub(crate) fn welded_from(positions: &[Vec3]) -> Welded {
+/// Those that [`import`] and [`place_and_weld`] keep of these positions.
+#[must_use]
+pub fn welded_from(positions: &[Vec3]) -> Welded {
     let mut seen = HashSet::with_capacity(positions.len());
     let first = positions.iter().enumerate().filter(|(_, p)| seen.insert(place(**p)));
     Welded { vertices: positions.len(), kept: first.map(|(v, _)| v as u32).collect() }

@@ -7,6 +7,7 @@ mod dynamics;
 mod forces;
 mod groom;
 mod identity;
+mod live_skin;
 mod model;
 mod skin;
 mod stage;
@@ -33,6 +34,7 @@ use crate::seat::{self, LikelyRoots, Seat};
 
 pub use forces::Forces;
 pub use groom::{Groom, Imported, ShardOf};
+pub use live_skin::LiveSkin;
 pub use model::Model;
 pub use way::Way;
 
@@ -174,8 +176,13 @@ impl BuiltScene {
     /// # Errors
     /// A field too strong for the hair, or strands that cannot be moved.
     pub fn simulation(&self) -> Result<Simulation> {
+        self.moved_by(&self.dynamics)
+    }
+
+    /// The fast stepper with these settings of the motion, at rest.
+    fn moved_by(&self, dynamics: &Dynamics) -> Result<Simulation> {
         self.check_memory(1)?;
-        let built = Simulation::with_ids(self.strands(), &self.groom.ids, &self.dynamics, &*self.forces.field);
+        let built = Simulation::with_ids(self.strands(), &self.groom.ids, dynamics, &*self.forces.field);
         built.map_err(|refused| self.refusal(refused))
     }
 

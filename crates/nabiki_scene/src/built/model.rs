@@ -11,6 +11,7 @@ use nabiki_io::info::Short;
 use nabiki_io::mesh::{self, MeshReport};
 use nabiki_io::{DeclaredSpace, Placement, declared_space};
 
+use super::live_skin::FileVertices;
 use super::stage::{At, Stage};
 use crate::advice::{Advice, Fix};
 use crate::error::Result;
@@ -29,6 +30,8 @@ pub struct Model {
     pub report: Option<MeshReport>,
     /// Unit and axes that its file declares.
     pub(crate) declared: DeclaredSpace,
+    /// How the vertices of its file become those of the head; `None` for the built-in head.
+    pub(super) vertices: Option<FileVertices>,
     /// The head as a body, once it is needed.
     body: OnceLock<Body>,
 }
@@ -110,20 +113,24 @@ impl Stage for Model {
             EllipsoidChoice::Fit => None,
             EllipsoidChoice::Given(ellipsoid) => Some(ellipsoid),
         };
-        let (head, placement, report, declared) = match &inputs.source {
+        let (head, placement, report, declared, vertices) = match &inputs.source {
             HeadSource::Builtin => {
                 let head = match given {
                     None => bust(),
                     Some(given) => bust().with_ellipsoid(given).map_err(|refused| at.refusal(refused))?,
                 };
-                (head, Placement::default(), None, DeclaredSpace::default())
+                (head, Placement::default(), None, DeclaredSpace::default(), None)
             }
             HeadSource::Imported(imported) => {
                 let file = at.there(&inputs.file, "head.mesh", &imported.mesh)?;
                 let declared = declared_space(&file)?;
                 let mut placement = imported.placement(declared.unit, declared.up);
                 placement.check("head").map_err(|refused| at.refusal(refused))?;
-                let (mut mesh, report) = mesh::import(&file, &placement, &imported.groups)?;
+                let (read, unread) = mesh::read_with_losses(&file, &imported.groups)?;
+                let (welded, head_from_file) = (mesh::welded_from(&read.positions), placement.head_from_file());
+                let (mut mesh, mut report) = mesh::place_and_weld(read, &placement).map_err(|e| e.in_file(&file))?;
+                report.unread = unread;
+                let mut center = Vec3::ZERO;
                 let refused = |refused: SettingError| {
                     let value = format!("{}, {}", imported.mesh.display(), refused.value);
                     at.refusal(if refused.thing == "head.mesh" { SettingError { value, ..refused } } else { refused })
@@ -132,16 +139,18 @@ impl Stage for Model {
                 if imported.origin.is_none() && given.is_none() {
                     let mut fitted = Head::fit(&mesh).map_err(refused)?;
                     placement.origin = placement.file_from_head().transform_point3(fitted.center);
+                    center = fitted.center;
                     for p in &mut mesh.positions {
-                        *p -= fitted.center;
+                        *p -= center;
                     }
                     fitted.center = Vec3::ZERO;
                     ellipsoid = Some(fitted);
                 }
                 let head = Head::from_mesh(mesh, ellipsoid).map_err(refused)?;
-                (head, placement, Some(report), declared)
+                let vertices = FileVertices { welded, head_from_file, center };
+                (head, placement, Some(report), declared, Some(vertices))
             }
         };
-        Ok(Self { inputs, head, placement, report, declared, body: OnceLock::new() })
+        Ok(Self { inputs, head, placement, report, declared, vertices, body: OnceLock::new() })
     }
 }

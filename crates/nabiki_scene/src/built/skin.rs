@@ -8,7 +8,7 @@ use nabiki::body::{Body, BodyWay, Contact, Shape};
 use nabiki::distance::{BendingSkin, SkinDistance};
 use nabiki::skin::SkinFrame;
 use nabiki::strands::bounds;
-use nabiki::{Mesh, Pose, Skin};
+use nabiki::{Mesh, Pose, SettingError, Skin};
 use nabiki_io::{Placement, skin};
 
 use super::groom::Groom;
@@ -193,6 +193,11 @@ pub(crate) struct Scalp {
     pub report: Option<String>,
 }
 
+/// The part of a head's mesh that carries the hair, at rest.
+pub(super) fn under_hair(mesh: &Mesh, groom: &Groom) -> Result<Skin, SettingError> {
+    Ok(Skin::new(mesh, "head.mesh")?.under(&[&groom.hair.strands, &groom.first]))
+}
+
 /// The inputs of the skin under the hair.
 #[derive(Debug)]
 pub(super) struct ScalpInputs {
@@ -214,7 +219,7 @@ impl Stage for Scalp {
         }
         let mesh = &bent.inputs.model.head.mesh;
         let refused = |refused| at.refusal(refused);
-        let skin = Skin::new(mesh, "head.mesh").map_err(refused)?.under(&[&groom.hair.strands, &groom.first]);
+        let skin = under_hair(mesh, groom).map_err(refused)?;
         let frames = bent.frames.iter().map(|frame| skin.frame(frame));
         let frames: Vec<SkinFrame> = frames.collect::<Result<_, _>>().map_err(refused)?;
         let skin = skin.with_frames(frames);
