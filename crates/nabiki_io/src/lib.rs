@@ -28,6 +28,7 @@ pub mod exchange;
 mod fbx_file;
 mod finite;
 mod gltf_file;
+mod gltf_write;
 mod groom_curves;
 mod groom_file;
 pub mod hair;
