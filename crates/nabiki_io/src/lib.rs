@@ -48,6 +48,7 @@ mod obj_text;
 pub mod painted;
 pub mod placement;
 pub mod point_cache;
+mod point_texture;
 pub mod screen;
 pub mod shell;
 mod short;
