@@ -255,7 +255,7 @@ def fbx(nabiki, bpy):
 
 
 def game(nabiki, python, bpy):
-    """Point caches and chains of joints, in Blender and in three.js."""
+    """Point caches, chains of joints and vertex-animation textures, in Blender and in three.js."""
     folder = WORK / "game"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
@@ -268,20 +268,23 @@ def game(nabiki, python, bpy):
         told.append(f"{file.name} {line.split('the skinned hair is ')[1].split()[0]}")
     (folder / "told.txt").write_text("\n".join(told))
     caches = ["--export", folder / "moving.pc2", "--export", folder / "moving.mdd"]
-    run(*simulate, "-o", folder / "moving.usdc", *caches, "--quiet")
+    run(*simulate, "-o", folder / "moving.usdc", *caches, "--export", folder / "ribbons.exr", "--quiet")
+    run(*simulate, "-o", folder / "lines.exr", "--export-cards", "0", "--quiet")
     run(python, HERE / "game.py", "points", folder)
     if bpy:
         run(bpy, HERE / "game.py", "blender", folder)
+        run(bpy, HERE / "textures.py", "blender", folder)
     else:
-        print("SKIPPED: point caches and chains in Blender, which is not here")
+        print("SKIPPED: point caches, chains and textures in Blender, which is not here")
     if not three(folder):
-        print("SKIPPED: chains in three.js: it wants node and npm")
+        print("SKIPPED: chains and textures in three.js: it wants node and npm")
         return
     run(python, HERE / "game.py", "three", folder)
+    run(python, HERE / "textures.py", "three", folder)
 
 
 def three(folder):
-    """Plays the chains with three.js, from npm; whether that is there."""
+    """Plays chains and textures with three.js, from npm; whether that is there."""
     where = WORK / "three"
     if not (shutil.which("node") and shutil.which("npm")):
         return False
@@ -292,6 +295,8 @@ def three(folder):
             return False
     script = shutil.copy(HERE / "three.mjs", where)
     run("node", script, "61", "120", folder / "few.glb", folder / "all.glb")
+    script = shutil.copy(HERE / "textures.mjs", where)
+    run("node", script, "61", folder / "ribbons.exr", folder / "lines.exr")
     return True
 
 

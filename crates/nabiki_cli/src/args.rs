@@ -177,7 +177,7 @@ impl Cli {
 #[derive(Args)]
 pub struct ExportArgs {
     /// Write the moving hair for other tools; repeatable: .usdc, .usd, .usda (text) or .abc; .glb, chains of joints with skinned
-    /// hair for games; .pc2 or .mdd, point caches
+    /// hair for games; .exr, a vertex-animation texture with its mesh; .pc2 or .mdd, point caches
     #[arg(long, value_name = "FILE")]
     pub export: Vec<PathBuf>,
 
@@ -207,7 +207,7 @@ pub struct ChainArgs {
     #[arg(long, value_name = "CHAINSxJOINTS", default_value = "64x8", value_parser = chains)]
     pub export_chains: (u32, u32),
 
-    /// In a .glb: width of the ribbon that each strand is drawn as; 0 draws lines, which few engines bind to joints
+    /// In a .glb, or with an .exr: width of the ribbon that each strand is drawn as; 0 draws lines, which few engines bind to joints
     #[arg(long, value_name = "CM", default_value_t = 0.4)]
     pub export_cards: f32,
 }
@@ -272,7 +272,8 @@ pub struct Simulate {
     #[arg(long, value_name = "N", value_parser = positive::<usize>)]
     pub strands: Option<usize>,
 
-    /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usd, .usda, .abc, .glb, .pc2, .mdd)
+    /// The motion cache to write (.nabiki), or moving hair for other tools (.usdc, .usd, .usda, .abc, .glb, .exr,
+    /// .pc2, .mdd)
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 
@@ -469,7 +470,7 @@ pub struct Convert {
     /// A hair file (.hair, .tfx, .obj, .usd, .usda, .usdc, .abc) or a motion cache (.nabiki)
     pub input: PathBuf,
 
-    /// The file to write: .hair, .tfx, .usd, .usda, .usdc or .abc; or, for all frames of a motion, .glb, .pc2 or .mdd. A full motion
+    /// The file to write: .hair, .tfx, .usd, .usda, .usdc or .abc; or, for all frames of a motion, .glb, .exr, .pc2 or .mdd. A full motion
     /// cache needs one that holds motion, so neither of the first two. Imported hair in a
     /// cache is written in the unit, axes and place of its original file
     pub output: PathBuf,

@@ -99,6 +99,9 @@ fn names_of_results_are_refused_before_anything_is_built() {
         ("groom scene.toml -o hair.fbx", "is not a hair format"),
         ("simulate scene.toml -o motion.bin", "a motion cache ends in .nabiki"),
         ("simulate scene.toml -o a.usdc --export ./a.usdc", "given twice"),
+        ("simulate scene.toml -o a.exr --export a.exr.glb", "a.exr.glb: given twice"),
+        ("simulate scene.toml -o a.exr --export-layer /Hair", ".exr has no layers"),
+        ("simulate scene.toml -o a.exr --export-springs", "export a .glb with them"),
     ] {
         let line = refuse(&folder, &format!("{words} {no_head}"));
         assert!(line.contains(why), "{words}: {line}");

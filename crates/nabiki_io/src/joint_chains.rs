@@ -10,7 +10,7 @@ mod glb;
 use std::io;
 use std::path::Path;
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, Vec3};
 use nabiki::Strands;
 use nabiki::subset::evenly;
 use nabiki_exchange::{Export, FrameSink};
@@ -18,6 +18,8 @@ use nabiki_file::PartFile;
 
 use bind::{Sampled, bind, choose};
 use chain::Guide;
+
+use crate::gltf_write::{colour, gltf_from_file, on_head};
 
 /// How hair is turned into chains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +66,11 @@ impl ChainOptions {
     /// Most joints in a file: readers store their numbers in 16 bits.
     pub const MOST_JOINTS: u32 = 65_535;
 
+    /// Half the width of ribbons (m); `None` draws lines.
+    pub(crate) fn half_width(&self) -> Option<f32> {
+        (self.cards > 0.0).then_some(0.5 * 0.01 * self.cards)
+    }
+
     /// Refuses no chains, no joints, too many of both, and a width below 0.
     ///
     /// # Errors
@@ -100,7 +107,6 @@ pub(crate) struct JointChains<'a> {
     file: PartFile,
     export: Export<'a>,
     options: ChainOptions,
-    /// Takes points of the file to glTF: metres, y up, facing +z where the hair has no file of its own.
     gltf_from_file: DAffine3,
     guides: Vec<Guide>,
     sampled: Sampled,
@@ -117,15 +123,8 @@ impl<'a> JointChains<'a> {
     pub fn create(path: &Path, export: Export<'a>, options: ChainOptions) -> io::Result<Self> {
         export.check()?;
         options.check().map_err(|problem| io::Error::new(io::ErrorKind::InvalidInput, problem))?;
-        let scale = export.meters_per_unit;
-        let matrix3 = match (export.faces_x, export.z_up) {
-            // +x to +z, y stays.
-            (true, _) => DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X),
-            (false, true) => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
-            (false, false) => DMat3::IDENTITY,
-        };
-        let gltf_from_file = DAffine3 { matrix3: matrix3 * scale, translation: DVec3::ZERO };
-        let rest = placed(&export, &gltf_from_file, &export.hair.strands);
+        let gltf_from_file = gltf_from_file(&export);
+        let rest = on_head(&(gltf_from_file * export.file_from_head), &export.hair.strands);
         let roots: Vec<Vec3> = rest.iter().map(|strand| strand[0]).collect();
         // Their way through all frames must fit into memory.
         let bytes = (u64::from(options.joints) + 1) * u64::from(export.frames) * size_of::<Vec3>() as u64;
@@ -155,19 +154,17 @@ fn check_rigid(parent: &DAffine3) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::InvalidInput, problem))
 }
 
-/// The strands in glTF's axes and unit, on the head.
-fn placed(export: &Export<'_>, gltf_from_file: &DAffine3, strands: &Strands) -> Strands {
-    let gltf_from_head = *gltf_from_file * export.file_from_head;
-    let mut placed = strands.clone();
-    placed.points_mut().iter_mut().for_each(|p| *p = gltf_from_head.transform_point3(p.as_dvec3()).as_vec3());
-    placed
+impl JointChains<'_> {
+    fn gltf_from_head(&self) -> DAffine3 {
+        self.gltf_from_file * self.export.file_from_head
+    }
 }
 
 impl FrameSink for JointChains<'_> {
     fn frame(&mut self, strands: &Strands, world_from_head: &DAffine3) -> io::Result<()> {
         // Refuses strands that do not match.
         self.export.points(strands, &mut self.room)?;
-        let now = placed(&self.export, &self.gltf_from_file, strands);
+        let now = on_head(&self.gltf_from_head(), strands);
         self.guides.iter_mut().for_each(|guide| guide.push(&now));
         self.sampled.push(&now);
         let parent = DAffine3::from_mat4(self.export.parent(world_from_head));
@@ -177,26 +174,25 @@ impl FrameSink for JointChains<'_> {
     }
 
     fn finish(mut self: Box<Self>) -> io::Result<Option<String>> {
-        let rest = placed(&self.export, &self.gltf_from_file, &self.export.hair.strands);
+        let gltf_from_head = self.gltf_from_head();
+        let rest = on_head(&gltf_from_head, &self.export.hair.strands);
         let candidates = std::mem::take(&mut self.guides);
         self.guides = choose(&rest, candidates, self.options.chains as usize, &self.sampled);
         let (bound, apart) = bind(&rest, &self.guides, &self.sampled);
-        let colour = self.export.hair.attributes.constant.colour.or(self.export.default_colour);
         let head = self.export.head.map(|mesh| {
             let points = mesh.positions.iter();
-            let gltf_from_head = self.gltf_from_file * self.export.file_from_head;
             let points = points.map(|p| gltf_from_head.transform_point3(p.as_dvec3()).as_vec3()).collect();
             (points, &mesh.triangles[..])
         });
         let scene = glb::Scene {
             rest: &rest,
-            center: (self.gltf_from_file * self.export.file_from_head).translation.as_vec3(),
+            center: gltf_from_head.translation.as_vec3(),
             bound: &bound,
             guides: &self.guides,
             heads: &self.heads,
             frame_rate: self.export.frame_rate,
-            colour: colour.unwrap_or([0.2, 0.1, 0.05]),
-            half_width: (self.options.cards > 0.0).then_some(0.5 * 0.01 * self.options.cards),
+            colour: colour(&self.export),
+            half_width: self.options.half_width(),
             head,
             springs: self.options.springs,
         };

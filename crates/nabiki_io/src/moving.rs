@@ -1,6 +1,6 @@
 //! Moving hair for other programs, in any format. The ending of the name decides.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DAffine3;
 use nabiki::Hair;
@@ -14,9 +14,10 @@ use crate::joint_chains::JointChains;
 pub use crate::joint_chains::{ChainOptions, Springs};
 use crate::kind::extension;
 use crate::point_cache::{Kind, PointCache};
+use crate::point_texture::{self, PointTexture};
 
 /// The endings, for messages.
-pub const ENDINGS: &str = ".usd, .usda, .usdc, .abc, .glb, .pc2 or .mdd";
+pub const ENDINGS: &str = ".usd, .usda, .usdc, .abc, .glb, .exr, .pc2 or .mdd";
 
 /// A format of moving hair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,8 @@ enum Format {
     Alembic,
     /// Chains of joints, and hair bound to them.
     Gltf,
+    /// A vertex-animation texture, and the mesh that it moves.
+    Texture,
     Points(Kind),
 }
 
@@ -34,6 +37,7 @@ impl Format {
             _ if exchange::is_usd(path) => Some(Self::Usd),
             _ if exchange::is_alembic(path) => Some(Self::Alembic),
             "glb" => Some(Self::Gltf),
+            "exr" => Some(Self::Texture),
             _ => Kind::of(path).map(Self::Points),
         }
     }
@@ -51,16 +55,37 @@ pub fn holds_hair(path: &Path) -> bool {
 
 /// Whether strands of this format begin at their roots. In others they run as in the file that the hair came from.
 pub fn is_root_first(path: &Path) -> bool {
+    matches!(Format::of(path), Some(Format::Gltf | Format::Texture))
+}
+
+/// Whether the file has chains of joints.
+pub fn has_chains(path: &Path) -> bool {
     Format::of(path) == Some(Format::Gltf)
 }
 
-/// Whether the file names its unit and up axis, so that these must be known: USD and glTF.
+/// Whether the file names its unit and up axis, or has those of glTF, so that these must be known.
 pub fn states_space(path: &Path) -> bool {
-    matches!(Format::of(path), Some(Format::Usd | Format::Gltf))
+    matches!(Format::of(path), Some(Format::Usd | Format::Gltf | Format::Texture))
+}
+
+/// The files that are written together with `path`, and what each is.
+pub fn companions(path: &Path) -> Vec<(PathBuf, &'static str)> {
+    match Format::of(path) {
+        Some(Format::Texture) => vec![
+            (point_texture::mesh_path(path), "the mesh that the texture moves"),
+            (point_texture::text_path(path), "how to use both"),
+        ],
+        _ => Vec::new(),
+    }
+}
+
+/// All files that are written for `path`: itself, and its companions.
+pub fn files(path: &Path) -> impl Iterator<Item = PathBuf> {
+    std::iter::once(path.to_owned()).chain(companions(path).into_iter().map(|(file, _)| file))
 }
 
 /// Starts a file for moving hair, frame by frame. `layer` is the prim path of a groom, for a layer with only samples;
-/// `chains` is for .glb alone.
+/// `chains` is for .glb, and its `cards` for .exr.
 ///
 /// # Errors
 /// Another ending, a layer for a format that has none, or an error of the disk.
@@ -80,6 +105,9 @@ pub fn sink<'a>(
         (Some(_), Some(_)) => refused(no_layers(path)),
         (Some(Format::Alembic), None) => Ok(Box::new(HairArchive::create(path, export).map_err(named)?)),
         (Some(Format::Gltf), None) => Ok(Box::new(JointChains::create(path, export, chains).map_err(named)?)),
+        (Some(Format::Texture), None) => {
+            Ok(Box::new(PointTexture::create(path, export, chains.half_width()).map_err(named)?))
+        }
         (Some(Format::Points(kind)), None) => Ok(Box::new(PointCache::create(path, kind, export).map_err(named)?)),
         (None, _) => refused(format!("moving hair is written as {ENDINGS}")),
     }
@@ -108,9 +136,18 @@ pub fn no_layers(path: &Path) -> String {
 pub fn least_bytes(path: &Path, export: &Export<'_>, layer: bool) -> u64 {
     let (points, frames) = (export.hair.strands.points().len() as u64, u64::from(export.frames));
     match Format::of(path) {
-        Some(Format::Gltf) => 12 * points,
+        // A texture of hair at rest is compressed to almost nothing; its mesh is not.
+        Some(Format::Gltf | Format::Texture) => 12 * points,
         Some(Format::Points(_)) => 12 * points * frames,
         _ => exchange::least_bytes(path, export, frames, layer),
+    }
+}
+
+/// Memory (bytes) that a file takes until all its frames are there, beyond what every format needs.
+pub fn held_bytes(path: &Path, export: &Export<'_>, chains: ChainOptions) -> u64 {
+    match Format::of(path) {
+        Some(Format::Texture) => point_texture::held_bytes(export, chains.half_width()),
+        _ => 0,
     }
 }
 

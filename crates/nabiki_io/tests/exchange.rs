@@ -255,7 +255,7 @@ fn a_layer_of_alembic_and_an_unknown_ending_are_refused_by_name() {
     assert_eq!(refused("hair.abc", Some("/a")), "hair.abc: Alembic has no layers: write .usd, .usda or .usdc");
     assert_eq!(
         refused("hair.fbx", None),
-        "hair.fbx: moving hair is written as .usd, .usda, .usdc, .abc, .glb, .pc2 or .mdd"
+        "hair.fbx: moving hair is written as .usd, .usda, .usdc, .abc, .glb, .exr, .pc2 or .mdd"
     );
 }
 

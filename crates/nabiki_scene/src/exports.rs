@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nabiki::dynamics::{Form, earth_gravity};
 use nabiki::free_form::EARTH_CM_PER_S2;
 use nabiki::{Hair, Pose, Strands};
-use nabiki_exchange::FrameSink;
+use nabiki_exchange::{Export, FrameSink};
 use nabiki_io::cache::Origin;
 use nabiki_io::exchange;
 use nabiki_io::moving::{self, ChainOptions, Springs};
@@ -13,6 +13,7 @@ use nabiki_render::colour;
 
 use crate::built::BuiltScene;
 use crate::error::{Error, Result};
+use crate::memory;
 use crate::place;
 use crate::scene::HeadSource;
 use crate::watch::Watch;
@@ -20,14 +21,14 @@ use crate::watch::Watch;
 /// The files of moving hair that a task writes in addition to its other results.
 #[derive(Clone, Debug, Default)]
 pub struct ExportOptions {
-    /// .usd, .usda, .usdc, .abc, .glb, .pc2 or .mdd files.
+    /// .usd, .usda, .usdc, .abc, .glb, .exr, .pc2 or .mdd files.
     pub files: Vec<PathBuf>,
     /// Prim path of a groom, for a layer with only samples over it. `None` writes complete stages.
     pub layer: Option<String>,
     /// Whether to write the head where it is usually left out: the built-in head, which is large and known to
     /// everybody, and any head in .abc files, which Unreal then imports as a mesh and not as a groom.
     pub head: bool,
-    /// How hair is turned into chains of joints, for .glb files.
+    /// How hair is turned into chains of joints, for .glb files. Its cards are for .exr, too.
     pub chains: ChainOptions,
     /// Whether a .glb also gets VRM's spring bones, with the scene's hold, weight and settling. Free form only.
     pub springs: bool,
@@ -53,7 +54,7 @@ impl ExportOptions {
             let line = "--export-head: adds the head to moving hair, but none is written: also give --export FILE.usdc";
             return Err(Error::refused(line));
         }
-        let has_chains = self.files.iter().any(|file| moving::is_root_first(file));
+        let has_chains = self.files.iter().any(|file| moving::has_chains(file));
         if self.springs && !has_chains {
             return Err(Error::refused("springs are for chains of joints: export a .glb with them"));
         }
@@ -62,10 +63,15 @@ impl ExportOptions {
             let way_out = match &self.layer {
                 _ if !moving::is_moving(file) => format!("moving hair is written as {}", moving::ENDINGS),
                 Some(_) if !exchange::is_usd(file) => moving::no_layers(file),
-                _ => return place::file(file),
+                _ => return moving::files(file).try_for_each(|file| place::file(&file)),
             };
             Err(Error::refused(format!("{}: {way_out}", file.display())))
         })
+    }
+
+    /// All files that are written: those asked for, and what comes with them.
+    pub(crate) fn written(&self) -> Vec<PathBuf> {
+        self.files.iter().flat_map(|file| moving::files(file)).collect()
     }
 }
 
@@ -114,12 +120,11 @@ impl<'a> Exports<'a> {
                     super::tasks::lost(path, exchange::layer_losses(curves, built.head_moves()), watch);
                 }
             }
-            let bytes = moving::least_bytes(path, &export, options.layer.is_some());
-            place::room(path, bytes, watch)?;
+            let begun = sink(path, export, options.layer.as_deref(), chains, watch)?;
             if options.layer.is_none() {
                 super::tasks::lost(path, moving::losses(path, hair), watch);
             }
-            sinks.push((path.clone(), moving::sink(path, export, options.layer.as_deref(), chains)?));
+            sinks.push((path.clone(), begun));
         }
         let turned = built.groom.hair.attributes.tip_first.as_deref().filter(|_| !sinks.is_empty());
         let turned = turned.map(|turned| (turned, built.strands().clone()));
@@ -153,9 +158,28 @@ impl<'a> Exports<'a> {
         let mut written = Vec::new();
         for (path, sink) in self.sinks {
             let holds = sink.finish().map_err(|e| named(e, &path))?;
+            let companions = moving::companions(&path);
             written.push((path, holds));
+            written.extend(companions.into_iter().map(|(file, is)| (file, Some(is.to_owned()))));
         }
         Ok(written)
+    }
+}
+
+/// Begins a file of moving hair, if there are disk and memory for it.
+pub(crate) fn sink<'a>(
+    path: &Path,
+    export: Export<'a>,
+    layer: Option<&str>,
+    chains: ChainOptions,
+    watch: &mut dyn Watch,
+) -> Result<Box<dyn FrameSink + 'a>> {
+    place::room(path, moving::least_bytes(path, &export, layer.is_some()), watch)?;
+    let held = moving::held_bytes(path, &export, chains);
+    let begun = moving::sink(path, export, layer, chains)?;
+    match memory::short_of(held) {
+        Some(short) => Err(Error::refused(format!("{}: {short}; use fewer strands or fewer frames", path.display()))),
+        None => Ok(begun),
     }
 }
 

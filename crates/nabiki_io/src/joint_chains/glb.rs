@@ -9,15 +9,9 @@ use serde_json::{Value, json};
 use super::Springs;
 use super::bind::Influence;
 use super::chain::{Bone, Guide};
-
-// Names of the specification.
-const FLOAT: u32 = 5126;
-const SHORT: u32 = 5122;
-const UNSIGNED_BYTE: u32 = 5121;
-const UNSIGNED_SHORT: u32 = 5123;
-const UNSIGNED_INT: u32 = 5125;
-const LINES: u32 = 1;
-const TRIANGLES: u32 = 4;
+use crate::gltf_write::{
+    Binary, FLOAT, SHORT, TRIANGLES, UNSIGNED_BYTE, UNSIGNED_SHORT, VERTICES, joined, material, ribbons, short,
+};
 
 /// Roots of skin that move less than this stay where they are (m).
 const STAYS: f64 = 1e-6;
@@ -42,65 +36,6 @@ pub(super) struct Scene<'a> {
     pub springs: Option<Springs>,
 }
 
-/// The buffer, and what describes it.
-#[derive(Default)]
-struct Binary {
-    bytes: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
-}
-
-impl Binary {
-    /// A view of some bytes. `target`: what a graphics card takes them for.
-    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
-        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
-        if let Some(target) = target {
-            view["target"] = target.into();
-        }
-        self.bytes.extend_from_slice(bytes);
-        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        self.views.push(view);
-        self.views.len() - 1
-    }
-
-    fn accessor(&mut self, view: usize, offset: usize, component: u32, kind: &str, count: usize) -> usize {
-        let accessor = json!({
-            "bufferView": view, "byteOffset": offset, "componentType": component, "type": kind, "count": count
-        });
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
-    }
-
-    /// Attributes of vertices or of the animation.
-    fn vectors(&mut self, vectors: &[Vec3], target: Option<u32>) -> usize {
-        let view = self.view(bytemuck::cast_slice(vectors), target);
-        self.accessor(view, 0, FLOAT, "VEC3", vectors.len())
-    }
-
-    /// Positions, with the bounds that are required of these.
-    fn positions(&mut self, points: &[Vec3]) -> usize {
-        let accessor = self.vectors(points, VERTICES);
-        let [low, high] = nabiki::strands::bounds(points).map(|p| p.to_array());
-        self.accessors[accessor]["min"] = short(&low);
-        self.accessors[accessor]["max"] = short(&high);
-        accessor
-    }
-
-    /// Indices of vertices, in 16 bits where they fit: the largest number of these is not an index.
-    fn indices(&mut self, indices: &[u32]) -> usize {
-        let narrow: Option<Vec<u16>> =
-            indices.iter().map(|&index| u16::try_from(index).ok().filter(|&index| index < u16::MAX)).collect();
-        let (bytes, component) = match &narrow {
-            Some(narrow) => (bytemuck::cast_slice(narrow), UNSIGNED_SHORT),
-            None => (bytemuck::cast_slice(indices), UNSIGNED_INT),
-        };
-        let view = self.view(bytes, Some(34963));
-        self.accessor(view, 0, component, "SCALAR", indices.len())
-    }
-}
-
-const VERTICES: Option<u32> = Some(34962);
-
 /// Writes the file.
 pub(super) fn write(scene: &Scene<'_>, to: &mut impl Write) -> io::Result<()> {
     let mut binary = Binary::default();
@@ -122,16 +57,12 @@ pub(super) fn write(scene: &Scene<'_>, to: &mut impl Write) -> io::Result<()> {
         nodes[0]["mesh"] = 1.into();
     }
     let mut document = json!({
-        "asset": { "version": "2.0", "generator": concat!("Nabiki ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
         "scenes": [{ "nodes": roots }],
         "nodes": nodes,
         "meshes": meshes,
         "materials": materials,
         "skins": [skin],
-        "accessors": binary.accessors,
-        "bufferViews": binary.views,
-        "buffers": [{ "byteLength": binary.bytes.len() }],
     });
     if let Some(springs) = scene.springs {
         document["extensionsUsed"] = json!(["VRMC_springBone"]);
@@ -140,30 +71,7 @@ pub(super) fn write(scene: &Scene<'_>, to: &mut impl Write) -> io::Result<()> {
     if scene.heads.len() > 1 {
         document["animations"] = json!([animation]);
     }
-    let mut text = serde_json::to_vec(&document).map_err(io::Error::other)?;
-    text.resize(text.len().next_multiple_of(4), b' ');
-    let whole = |length: usize| {
-        u32::try_from(length).map_err(|_| {
-            let problem = format!("it would have {length} bytes: a .glb holds less than 4 GiB; show fewer strands");
-            io::Error::new(io::ErrorKind::InvalidInput, problem)
-        })
-    };
-    let all = whole(12 + 8 + text.len() + 8 + binary.bytes.len())?;
-    to.write_all(b"glTF")?;
-    for word in [2, all, whole(text.len())?, 0x4E4F_534A] {
-        to.write_all(&word.to_le_bytes())?;
-    }
-    to.write_all(&text)?;
-    for word in [whole(binary.bytes.len())?, 0x004E_4942] {
-        to.write_all(&word.to_le_bytes())?;
-    }
-    to.write_all(&binary.bytes)
-}
-
-fn material(name: &str, [r, g, b]: [f32; 3], two_sided: bool) -> Value {
-    json!({ "name": name, "doubleSided": two_sided, "pbrMetallicRoughness": {
-        "baseColorFactor": [r.min(1.0), g.min(1.0), b.min(1.0), 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.6
-    } })
+    binary.write(document, to)
 }
 
 /// The mesh of the hair at rest: lines, or a ribbon for each strand.
@@ -171,7 +79,7 @@ fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
     let strands = scene.rest;
     let (points, each) = match scene.half_width {
         None => (strands.points().to_vec(), 1),
-        Some(half) => (strands.iter().flat_map(|strand| ribbon(strand, half, scene.center)).collect(), 2),
+        Some(half) => (strands.iter().flat_map(|strand| ribbons::ribbon(strand, half, scene.center)).collect(), 2),
     };
     let (mut joints, mut weights): (Vec<[u16; 4]>, Vec<[u8; 4]>) = (Vec::new(), Vec::new());
     for (of, by) in scene.bound {
@@ -180,19 +88,7 @@ fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
             weights.push(*by);
         }
     }
-    let segments = |s: usize| {
-        let range = strands.range(s);
-        (range.start..range.end - 1).map(|at| at as u32)
-    };
-    let all = (0..strands.len()).flat_map(segments);
-    let (indices, mode): (Vec<u32>, u32) = match each {
-        1 => (all.flat_map(|at| [at, at + 1]).collect(), LINES),
-        // Two points at each node: left, right.
-        _ => {
-            let quad = |at: u32| [2 * at, 2 * at + 1, 2 * at + 2, 2 * at + 2, 2 * at + 1, 2 * at + 3];
-            (all.flat_map(quad).collect(), TRIANGLES)
-        }
-    };
+    let (indices, mode) = joined(strands, each == 2);
     let position = binary.positions(&points);
     let view = binary.view(bytemuck::cast_slice(&joints), VERTICES);
     let joints = binary.accessor(view, 0, UNSIGNED_SHORT, "VEC4", points.len());
@@ -201,12 +97,8 @@ fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
     binary.accessors[weights]["normalized"] = true.into();
     let mut attributes = json!({ "POSITION": position, "JOINTS_0": joints, "WEIGHTS_0": weights });
     if each == 2 {
-        let uvs: Vec<[u16; 2]> = strands.iter().flat_map(along).flat_map(|v| [[0, v], [u16::MAX, v]]).collect();
-        let view = binary.view(bytemuck::cast_slice(&uvs), VERTICES);
-        let uvs = binary.accessor(view, 0, UNSIGNED_SHORT, "VEC2", uvs.len());
-        binary.accessors[uvs]["normalized"] = true.into();
-        attributes["TEXCOORD_0"] = uvs.into();
-        let all = strands.iter().flat_map(|strand| normals(strand, scene.center));
+        attributes["TEXCOORD_0"] = binary.ribbon_uvs(strands).into();
+        let all = strands.iter().flat_map(|strand| ribbons::normals(strand, scene.center));
         let normals: Vec<Vec3> = all.flat_map(|normal| [normal; 2]).collect();
         attributes["NORMAL"] = binary.vectors(&normals, VERTICES).into();
     }
@@ -214,33 +106,6 @@ fn hair(scene: &Scene<'_>, binary: &mut Binary) -> Value {
     json!({ "name": "hair", "primitives": [
         { "attributes": attributes, "indices": indices, "mode": mode, "material": 0 }
     ] })
-}
-
-/// How far along the strand each point is: 0 at the root, the largest number at the tip.
-fn along(strand: &[Vec3]) -> Vec<u16> {
-    let last = strand.len() - 1;
-    (0..=last).map(|i| (i * usize::from(u16::MAX) / last) as u16).collect()
-}
-
-/// The direction of the strand at each point.
-fn tangents(strand: &[Vec3]) -> impl Iterator<Item = Vec3> {
-    let last = strand.len() - 1;
-    (0..=last).map(move |i| (strand[(i + 1).min(last)] - strand[i.saturating_sub(1)]).normalize_or(Vec3::NEG_Y))
-}
-
-/// A direction across the strand at each point that lies on the skin as near as may be: ribbons lie flat on the head.
-fn normals(strand: &[Vec3], center: Vec3) -> Vec<Vec3> {
-    // Hair grows away from the middle of the head.
-    let out = (strand[0] - center).normalize_or(Vec3::Y);
-    tangents(strand)
-        .map(|tangent| (out - tangent * tangent.dot(out)).normalize_or(tangent.any_orthonormal_vector()))
-        .collect()
-}
-
-/// Two points at each point of the strand, left and right.
-fn ribbon(strand: &[Vec3], half: f32, center: Vec3) -> Vec<Vec3> {
-    let sides = tangents(strand).zip(normals(strand, center)).map(|(tangent, normal)| half * tangent.cross(normal));
-    strand.iter().zip(sides).flat_map(|(p, side)| [*p - side, *p + side]).collect()
 }
 
 /// The nodes, of which the first is the head, and the numbers of those that are joints, guide by guide.
@@ -272,11 +137,6 @@ fn joints(scene: &Scene<'_>) -> (Vec<Value>, Vec<usize>) {
         nodes[0]["rotation"] = short(&turn);
     }
     (nodes, joints)
-}
-
-/// Numbers of 32 bits, with no more digits than these need.
-fn short(numbers: &[f32]) -> Value {
-    numbers.iter().map(|number| number.to_string().parse::<f64>().unwrap_or_default()).collect::<Vec<_>>().into()
 }
 
 /// Rotation and translation of a rigid transform.

@@ -214,13 +214,13 @@ impl Scene {
         watched(py, Ears::new(&progress, &report), &fields, |watch| tasks::preview(scene, shown, &folder, None, watch))
     }
 
-    /// Writes the moving hair: .usdc, .usda or .abc for other programs, .glb for engines, .pc2 or .mdd point caches, or a
-    /// motion cache, .nabiki.
+    /// Writes the moving hair: .usdc, .usda or .abc for other programs, .glb or .exr for engines, .pc2 or .mdd point caches,
+    /// or a motion cache, .nabiki. An .exr is a vertex-animation texture, with its mesh, .exr.glb, and a text, .exr.txt.
     ///
     /// `strands`: use only this many. `layer`: the prim path of the groom that a layer of samples covers. `head`:
     /// whether to add the head if it would be omitted: the built-in one, and any head in an .abc file. In a .glb:
     /// `chains`, the number of chains of joints and of joints in each; `cards`, the width of the ribbons in cm, 0 for
-    /// lines; `springs`, whether to add VRM's spring bones.
+    /// lines (with an .exr, too); `springs`, whether to add VRM's spring bones.
     #[pyo3(signature = (file, *, strands=None, layer=None, head=false, chains=(64, 8), cards=0.4, springs=false, progress=None,
         report=None))]
     #[expect(clippy::too_many_arguments, reason = "named in Python")]

@@ -13,6 +13,7 @@ use nabiki_io::{CurvePrim, GroomFile, Placement, Unit};
 
 use crate::advice::Advice;
 use crate::error::{Error, Result};
+use crate::exports;
 use crate::place;
 use crate::scene::{HairSettings, check_first_frame};
 use crate::told::Told;
@@ -37,7 +38,7 @@ pub struct ConvertOptions {
     pub layer: Option<String>,
     /// Number of the first frame on the output's timeline, instead of the input's.
     pub first_frame: Option<i32>,
-    /// How hair is turned into chains of joints, for a .glb.
+    /// How hair is turned into chains of joints, for a .glb. Its cards are for an .exr, too.
     pub chains: ChainOptions,
 }
 
@@ -76,8 +77,10 @@ pub fn convert(options: &ConvertOptions, watch: &mut dyn Watch) -> Result<()> {
 /// Refuses outputs that cannot be written, or would overwrite something else, before the input is opened.
 fn check_output(options: &ConvertOptions) -> Result<()> {
     let output = options.output.as_path();
-    place::file(output)?;
-    place::not_inputs(&[output], std::slice::from_ref(&options.input))?;
+    for file in moving::files(output) {
+        place::file(&file)?;
+        place::not_inputs(&[&file], std::slice::from_ref(&options.input))?;
+    }
     if is_cache(output) {
         return Err(Error::refused(format!(
             "{}: a motion cache contains the simulated hair of a scene; to simulate hair of a file, name it in a scene as \
@@ -289,7 +292,9 @@ fn lost_pose(pose: &Pose) -> String {
 
 fn finish(options: &ConvertOptions, losses: Vec<String>, holds: String, watch: &mut dyn Watch) {
     super::lost(&options.output, losses, watch);
-    watch.told(Told::Wrote { file: options.output.clone(), holds: Some(holds) });
+    let companions = moving::companions(&options.output).into_iter().map(|(file, is)| (file, is.to_owned()));
+    let written = std::iter::once((options.output.clone(), holds)).chain(companions);
+    super::wrote_with(written.map(|(file, holds)| (file, Some(holds))), watch);
 }
 
 /// Unit and up axis, if the output cannot declare them.
@@ -380,8 +385,7 @@ fn cached_frames(options: &ConvertOptions, mut cache: Reader, watch: &mut dyn Wa
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = cache.frame_count();
     export.frames = u32::try_from(frames).unwrap_or(u32::MAX);
-    place::room(output, moving::least_bytes(output, &export, layer.is_some()), watch)?;
-    let mut sink = moving::sink(output, export, layer, options.chains)?;
+    let mut sink = exports::sink(output, export, layer, options.chains, watch)?;
     let mut strands = cache.header().strands();
     // The header of a cache has fewer frames than that.
     let last = u32::try_from(frames.saturating_sub(1)).unwrap_or(u32::MAX);
@@ -422,8 +426,7 @@ fn exchanged_frames(options: &ConvertOptions, mut groom: GroomFile, watch: &mut 
     let failed = |e: std::io::Error| Error::from(nabiki_io::Error::from(e).in_file(output));
     let frames = moving.frames() as u32;
     export.frames = frames;
-    place::room(output, moving::least_bytes(output, &export, false), watch)?;
-    let mut sink = moving::sink(output, export, None, options.chains)?;
+    let mut sink = exports::sink(output, export, None, options.chains, watch)?;
     each_frame(watch, "converting", 0..=frames - 1, |frame| {
         let (strands, world_from_hair) = moving.frame(frame as usize)?;
         if strands.starts() != hair.strands.starts() {

@@ -22,7 +22,8 @@ use crate::watch::Watch;
 /// A scene that cannot be built or simulated, a place that cannot be written, or cancelled by `watch`.
 pub fn run(scene: Scene, shown: Shown, folder: &Path, exports: &ExportOptions, watch: &mut dyn Watch) -> Result<()> {
     exports.check()?;
-    let files: Vec<&Path> = exports.files.iter().map(|file| file.as_path()).collect();
+    let written = exports.written();
+    let files: Vec<&Path> = written.iter().map(|file| file.as_path()).collect();
     place::distinct(&files)?;
     place::not_inputs(&files, &scene.inputs())?;
     outputs::check_movie(&scene, &scene.picture)?;

@@ -20,7 +20,7 @@ use crate::watch::{Watch, each_frame};
 /// Options of [`simulate`].
 #[derive(Clone, Debug)]
 pub struct SimulateOptions {
-    /// A motion cache (.nabiki), or moving hair for other tools (.usd, .usda, .usdc, .abc).
+    /// A motion cache (.nabiki), or moving hair for other tools, by its ending.
     pub output: PathBuf,
     /// Additional files of moving hair for other tools.
     pub exports: ExportOptions,
@@ -78,7 +78,8 @@ pub fn simulate(scene: Scene, shown: Shown, options: &SimulateOptions, watch: &m
         None => exports.files.insert(0, options.output.clone()),
     }
     exports.check()?;
-    let files: Vec<&Path> = cache.into_iter().chain(exports.files.iter().map(PathBuf::as_path)).collect();
+    let written = exports.written();
+    let files: Vec<&Path> = cache.into_iter().chain(written.iter().map(PathBuf::as_path)).collect();
     place::distinct(&files)?;
     place::not_inputs(&files, &scene.inputs())?;
     let built = match &options.shard {
