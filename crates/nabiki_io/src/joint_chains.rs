@@ -1,7 +1,7 @@
 //! Moving hair as a skinned mesh for games: `.glb` with chains of joints, their animation, and hair bound to them.
 //!
-//! Some strands, the guides, are evenly spread and become chains. Every strand follows two guides, those that take it
-//! nearest to where it was simulated. Only the joints are animated, so the file stays small.
+//! Some strands, the guides, are evenly spread and become chains. Every strand follows two guides near its root, those
+//! that take it nearest to where it was simulated. Only the joints are animated, so the file stays small.
 
 mod bind;
 mod chain;

@@ -5,7 +5,7 @@ use nabiki::Strands;
 
 use super::chain::{Bone, Guide};
 
-/// Of this many guides, those that lead a strand best alone, the best two lead it together.
+/// Of this many guides nearest to a root, the best two lead the strand.
 const TRIED: usize = 16;
 /// Places along a strand at which it is compared with its guides, the last one its tip.
 const PLACES: usize = 4;
@@ -70,22 +70,17 @@ pub(super) fn bind(rest: &Strands, guides: &[Guide], sampled: &Sampled) -> (Vec<
     let bones: Vec<Poses> = guides.iter().map(|guide| poses(guide, sampled)).collect();
     let (mut bound, mut sum, mut most, mut count) = (Vec::with_capacity(rest.points().len()), 0.0, 0.0_f64, 0_u64);
     for (s, strand) in rest.iter().enumerate() {
+        let near = nearest(guides.iter().map(|guide| guide.rest[0]), strand[0]);
         let lengths = lengths(strand);
         // Where each guide takes the compared points in each sampled frame.
         let followed = Followed { places: &sampled.places[s], strand, lengths: &lengths };
+        let taken: Vec<Vec<DVec3>> = near.iter().map(|&g| followed.by(&guides[g], &bones[g])).collect();
         let wanted = sampled.way(s);
-        // The chain that moves alike may grow elsewhere: a lock of the other side, in the same gust.
-        let mut alike: Vec<usize> = (0..guides.len()).collect();
-        let mut taken: Vec<Vec<DVec3>> = alike.iter().map(|&g| followed.by(&guides[g], &bones[g])).collect();
-        let apart: Vec<f64> = taken.iter().map(|taken| apart(taken, &wanted)).collect();
-        alike.sort_by(|&a, &b| apart[a].total_cmp(&apart[b]));
-        alike.truncate(TRIED);
-        taken = alike.iter().map(|&g| std::mem::take(&mut taken[g])).collect();
         let (led, apart) = best(&taken, &wanted);
         for distance in apart {
             (sum, most, count) = (sum + distance, most.max(distance), count + 1);
         }
-        let led = Led { guides: led.guides.map(|at| alike[at]), ..led };
+        let led = Led { guides: led.guides.map(|at| near[at]), ..led };
         bound.extend(lengths.iter().map(|&along| influence(guides, led, along)));
     }
     (bound, [sum / count.max(1) as f64, most])
@@ -113,8 +108,8 @@ impl Followed<'_> {
     }
 }
 
-/// Chooses `count` of the candidates, of which the first are spread most evenly: those that lead the others
-/// best, each by the one that suits it.
+/// Chooses `count` of the candidates, of which the first are spread most evenly: those from which, each among its nearest,
+/// the others are led best.
 pub(super) fn choose(rest: &Strands, mut candidates: Vec<Guide>, count: usize, sampled: &Sampled) -> Vec<Guide> {
     /// Rounds of assigning candidates to guides, and of choosing each guide anew among its own.
     const ROUNDS: usize = 6;
@@ -126,14 +121,15 @@ pub(super) fn choose(rest: &Strands, mut candidates: Vec<Guide>, count: usize, s
         let s = candidates[led].strand;
         let led_strand = Followed { places: &sampled.places[s], strand: rest.strand(s), lengths: &lengths[led] };
         let taken = led_strand.by(&candidates[by], &poses[by]);
-        apart(&taken, &ways[led])
+        taken.iter().zip(&ways[led]).map(|(a, b)| a.distance_squared(*b)).sum()
     };
+    let root = |c: usize| candidates[c].rest[0];
     let mut chosen: Vec<usize> = (0..count.min(candidates.len())).collect();
     for _ in 0..ROUNDS {
         let mut own: Vec<Vec<usize>> = vec![Vec::new(); chosen.len()];
         for c in 0..candidates.len() {
-            let all = chosen.iter().enumerate().map(|(g, &guide)| (cost(c, guide), g));
-            let best = all.min_by(|a, b| a.0.total_cmp(&b.0));
+            let near = nearest(chosen.iter().map(|&guide| root(guide)), root(c));
+            let best = near.into_iter().map(|g| (cost(c, chosen[g]), g)).min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, g)) = best {
                 own[g].push(c);
             }
@@ -157,6 +153,18 @@ pub(super) fn choose(rest: &Strands, mut candidates: Vec<Guide>, count: usize, s
     candidates
 }
 
+/// The numbers of the roots nearest to a place, nearest first; of roots at the same distance, the lower number first.
+fn nearest(roots: impl Iterator<Item = Vec3>, place: Vec3) -> Vec<usize> {
+    let mut all: Vec<(f32, usize)> = roots.enumerate().map(|(g, root)| (root.distance_squared(place), g)).collect();
+    let order = |a: &(f32, usize), b: &(f32, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if all.len() > TRIED {
+        all.select_nth_unstable_by(TRIED, order);
+        all.truncate(TRIED);
+    }
+    all.sort_by(order);
+    all.into_iter().map(|(_, g)| g).collect()
+}
+
 /// The length of hair up to each point.
 fn lengths(strand: &[Vec3]) -> Vec<f32> {
     let mut along = 0.0;
@@ -165,11 +173,6 @@ fn lengths(strand: &[Vec3]) -> Vec<f32> {
         along
     });
     std::iter::once(0.0).chain(further.collect::<Vec<_>>()).collect()
-}
-
-/// How far a strand is from where it should be: the sum of the squared distances.
-fn apart(taken: &[DVec3], wanted: &[DVec3]) -> f64 {
-    taken.iter().zip(wanted).map(|(a, b)| a.distance_squared(*b)).sum()
 }
 
 /// The best two of the guides, or one of them alone, by the mean square of the distances; and the distances that remain.

@@ -3,7 +3,8 @@
 use eframe::egui::{ComboBox, Ui};
 use toml::{Table, Value};
 
-use super::{Field, number_of};
+use super::{Field, number_of, send};
+use crate::command::Command;
 use crate::document::Phase;
 use crate::panels::Commands;
 use crate::panels::hands::Hands;
