@@ -16,7 +16,6 @@ use crate::error::{Error, Result};
 use crate::exports;
 use crate::place;
 use crate::scene::{HairSettings, check_first_frame};
-use crate::told::Told;
 use crate::watch::{Watch, each_frame};
 
 /// Options of [`convert`].

@@ -9,7 +9,7 @@ from .. import _nabiki
 from ._table import Table, Tables
 from .hair import Clumps, Comb, Curl, Cut, Fringe, HairSettings, Hairline, Length, Lift, Parting, Ponytail, Stiffness, Style, Variation, Volume
 from .head import BodySettings, CapsuleSettings, HeadSettings, MotionSource
-from .motion import AimSettings, Contact, Disturbance, FreeSettings, LockVariation, Motion, NeighbourForces, PseudoForce, Region, Tie
+from .motion import AimSettings, Contact, Disturbance, FieldShare, FreeSettings, LockVariation, Motion, NeighbourForces, PseudoForce, Region, Tie
 from .picture import Background, Camera, CameraKey, HairLook, HeadLook, Light, Output, Picture, Sky, Video
 from .wind import BodyWind, EnvelopeKey, Falloff, Fan, Flow, ForceSettings, Gust, Point, Turbulence, Vortex, Wind
 

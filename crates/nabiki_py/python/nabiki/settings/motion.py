@@ -11,6 +11,7 @@ __all__ = [
     "AimSettings",
     "Contact",
     "Disturbance",
+    "FieldShare",
     "FreeSettings",
     "LockVariation",
     "Motion",
@@ -362,9 +363,10 @@ class LockVariation(Table):
 class Region(Table):
     """Hair that moves differently from the rest, such as a fringe that stays in the wind.
 
-    A strand belongs to the region by its group, by an attribute of the hair, by a painted map, by painted points, or
-    if its root is near a point or line; with several of these, by all of them. Each factor multiplies a setting of
-    `[free]`: one number, or a list from root to tip. Where regions overlap, their factors multiply.
+    A strand belongs to the region by its group, by an attribute of the hair or of the head's mesh, by a painted map,
+    by painted points, or if its root is near a point or line; with several of these, by all of them. Each factor
+    multiplies a setting of `[free]`: one number, or a list from root to tip. Where regions overlap, their factors
+    multiply.
     """
 
     __slots__ = ()
@@ -394,7 +396,9 @@ class Region(Table):
     @property
     def attribute(self) -> str | None:
         """Attribute of the hair in its file, such as a painted weight: one number per strand or point, of which that of
-        the root counts. It is how much the strand belongs to the region: 0 not at all, 1 fully. Text; default: none.
+        the root counts. It is how much the strand belongs to the region: 0 not at all, 1 fully. If the hair has none
+        of this name, it is a weight or colour that is painted on the vertices of the head's mesh, where the strand
+        grows. Of a colour the luminance counts, or one channel: "COLOR_0.g". Text; default: none.
         """
         value: str | None = self._get('attribute')
         return value
@@ -405,8 +409,8 @@ class Region(Table):
 
     @property
     def values(self) -> tuple[int, ...]:
-        """Values of the attribute that belong to the region, such as the numbers of clumps. Without them, the attribute
-        is a weight. List of whole numbers; default: none.
+        """Values of the attribute that belong to the region, such as the numbers of clumps, or of parts of the head's
+        mesh. Without them, the attribute is a weight. List of whole numbers; default: none.
         """
         value: tuple[int, ...] = self._get('values')
         return value
@@ -528,6 +532,39 @@ class Region(Table):
         self._set('wind', value)
 
     @property
+    def fields(self) -> Tables[FieldShare]:
+        """Factors on single fields, such as a fan that the fringe does not feel."""
+        return Tables(self._scene, self._key_of('fields'), FieldShare)
+
+    @fields.setter
+    def fields(self, value: Iterable[FieldShare | Mapping[str, Any]] | None) -> None:
+        self._set('fields', value)
+
+    @property
+    def gravity(self) -> float:
+        """Factor on `free.gravity`, for each strand as a whole. Hair at rest does not sag, whatever its weight. Number,
+        0 to 10; default: 1.
+        """
+        value: float = self._get('gravity')
+        return value
+
+    @gravity.setter
+    def gravity(self, value: float | None) -> None:
+        self._set('gravity', value)
+
+    @property
+    def margin(self) -> float:
+        """Factor on the distance that hair keeps from the head and from bodies, `contact.margin`. Number, 0 to 10;
+        default: 1.
+        """
+        value: float = self._get('margin')
+        return value
+
+    @margin.setter
+    def margin(self, value: float | None) -> None:
+        self._set('margin', value)
+
+    @property
     def drag(self) -> float | tuple[float, ...]:
         """Factor on `free.drag`. Number, 0 to 10, or list of numbers, each 0 to 10; default: 1."""
         value: float | tuple[float, ...] = self._get('drag')
@@ -536,6 +573,34 @@ class Region(Table):
     @drag.setter
     def drag(self, value: float | Numbers | None) -> None:
         self._set('drag', value)
+
+
+class FieldShare(Table):
+    """How strongly the hair of a region feels one field."""
+
+    __slots__ = ()
+
+    @property
+    def field(self) -> str:
+        """The field: "wind" for `[[force]]`, `[gust]`, `[body_wind]` and `[flow]` together, "turbulence", or a table of
+        which there may be several with its number, from 0, such as "fan[0]". Text; must be given.
+        """
+        value: str = self._get('field')
+        return value
+
+    @field.setter
+    def field(self, value: str | None) -> None:
+        self._set('field', value)
+
+    @property
+    def share(self) -> float:
+        """Factor on its force. At 0, the hair does not feel it. Number, 0 to 10; must be given."""
+        value: float = self._get('share')
+        return value
+
+    @share.setter
+    def share(self, value: float | None) -> None:
+        self._set('share', value)
 
 
 class Tie(Table):
