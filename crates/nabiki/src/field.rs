@@ -78,7 +78,7 @@ pub trait Field: Debug + Send + Sync {
         }
     }
 
-    /// Names of the parts that hair may feel more or less of, see [`Region::fields`](crate::region::Region::fields).
+    /// Names of the parts that hair may feel more or less of; none for a field that all hair feels as a whole, see [`Region::fields`](crate::region::Region::fields).
     fn parts(&self) -> &[String] {
         &[]
     }

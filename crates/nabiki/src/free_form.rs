@@ -136,13 +136,17 @@ impl FreeForm {
     /// Refuses a region's share in a field that is not there.
     pub(crate) fn check_shares(&self, field: &dyn Field) -> Result<(), SettingError> {
         let there = field.parts();
+        // Where nothing blows, there is nothing to have a share of.
+        if there.is_empty() && field.strongest() == 0.0 {
+            return Ok(());
+        }
         for (i, region) in self.regions.iter().enumerate() {
             let unknown = region.fields.iter().position(|of| !there.contains(&of.field));
             if let Some(j) = unknown {
                 let key = format!("free.regions[{i}].fields[{j}].field");
                 let remedy = match there {
-                    [] => "there is no such field: remove it".to_owned(),
-                    _ => format!("there is no such field; there is {}", there.join(", ")),
+                    [] => "no such field: remove it".to_owned(),
+                    _ => format!("no such field: use one of {}, or remove it", there.join(", ")),
                 };
                 return Err(SettingError::new(key, format!("{:?}", region.fields[j].field), remedy));
             }
@@ -245,7 +249,10 @@ impl FreeMotion {
 
     /// How strongly the strand with this root (head space at rest, cm) feels the fields that regions name.
     pub(crate) fn shares(&self, root: Vec3) -> FieldShares {
-        self.regions_of(root).shares(self.form.shared())
+        match &self.form.shared()[..] {
+            [] => FieldShares::default(),
+            fields => self.regions_of(root).shares(fields),
+        }
     }
 
     /// The regions that the strand with this root (head space at rest, cm) belongs to.

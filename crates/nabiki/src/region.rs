@@ -23,8 +23,8 @@ settings! {
     /// Hair that moves differently from the rest, such as a fringe that stays in the wind.
     ///
     /// A strand belongs to the region by its group, by an attribute of the hair or of the head's mesh, by a painted map, by painted points, or if
-    /// its root is near a point or line; with several of these, by all of them. Each factor multiplies a setting of `[free]`: one number,
-    /// or a list from root to tip. Where regions overlap, their factors multiply.
+    /// its root is near a point or line; with several of these, by all of them. Factors multiply the settings of the scene. Where a factor may be
+    /// a list, it runs from root to tip. Where regions overlap, their factors multiply.
     pub struct Region where reaches_hair {
         /// Name of the region, for `info`.
         pub name: String = String::new() => "Name";
@@ -72,9 +72,11 @@ settings! {
         /// Factors on single fields, such as a fan that the fringe does not feel.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub fields: Vec<FieldShare> = Vec::new() => "Fields";
-        /// Factor on `free.gravity`, for each strand as a whole. Hair at rest does not sag, whatever its weight.
+        /// Factor on `free.gravity`, for each strand as a whole. Hair at rest does not sag, whatever its weight. Factors
+        /// above 1 of all regions together may raise the number of steps per frame.
         pub gravity: f32 = 1.0 => "Weight", least 0.0, most MOST;
-        /// Factor on the distance that hair keeps from the head and from bodies, `contact.margin`.
+        /// Factor on the distance that hair keeps from the head and from bodies, `contact.margin`. That distance times the
+        /// factors above 1 of all regions, whether they overlap or not, is at most 5 cm.
         pub margin: f32 = 1.0 => "Margin", least 0.0, most MOST;
         /// Factor on `free.drag`.
         pub drag: Profile = Profile::Even(1.0) => "Drag", least 0.0, most MOST;
@@ -231,9 +233,9 @@ impl<'a> Belongs<'a> {
     }
 
     /// The factors on the forces of the fields with these names.
-    pub fn shares(&self, fields: Vec<&str>) -> FieldShares {
+    pub fn shares(&self, fields: &[&str]) -> FieldShares {
         let share = |field: &str| (field.to_owned(), self.product(|region| region.share_of(field)) as f32);
-        FieldShares(fields.into_iter().map(share).collect())
+        FieldShares(fields.iter().map(|field| share(field)).collect())
     }
 }
 

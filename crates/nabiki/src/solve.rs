@@ -11,6 +11,7 @@ mod drag;
 mod gusts;
 mod keyed_wind;
 mod linear;
+mod more_wind;
 mod problem;
 mod report;
 mod solver;

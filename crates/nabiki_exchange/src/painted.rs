@@ -100,9 +100,13 @@ impl Painted {
         if mesh.weights_named(&self.name).is_none() && mesh.weights.len() + names > MOST_NAMES {
             return Err(Problem(format!("a mesh keeps at most {MOST_NAMES} attributes and channels")));
         }
+        let known = mesh.weights_named(&self.name).map_or(0, |of| of.values.len());
+        if known > first {
+            return Err(Problem("another attribute has the same name".to_owned()));
+        }
         // Those before it may get noughts.
         let vertices = first.saturating_add(self.numbers.len() / self.extent);
-        budget.take_list::<f32>(vertices.saturating_mul(names), &self.name)?;
+        budget.take_list::<f32>((vertices - known).saturating_mul(names), &self.name)?;
         match self.extent {
             1 => mesh.add_weights(&self.name, first, self.numbers.iter().copied()),
             channels => mesh.add_colours(&self.name, first, channels, &self.numbers),
@@ -157,6 +161,20 @@ mod tests {
         let said = |on| painted(Role::Colour, 3, Values::Floats(vec![0.0; 6]), on).unwrap_err().0;
         assert_eq!(said(PaintedOn::Vertices), "2 for 3 vertices");
         assert_eq!(said(PaintedOn::Corners), "2 for 6 corners");
+    }
+
+    /// Each part takes from the budget what it adds: three hundred parts as much as one with all vertices. A second attribute of the
+    /// same name is left out.
+    #[test]
+    fn parts_cost_what_they_add_and_names_are_not_taken_twice() {
+        let (mut mesh, budget) = (Mesh::default(), Budget::of(0));
+        let part = Painted { name: "Cd".to_owned(), extent: 4, numbers: vec![0.5; 4 * 4000] };
+        for i in 0..300 {
+            part.add_to(&mut mesh, 4000 * i, &budget).unwrap();
+        }
+        assert_eq!(mesh.weights_named("Cd.a").unwrap().values.len(), 4000 * 300);
+        let again = part.add_to(&mut mesh, 4000 * 299, &budget).unwrap_err().0;
+        assert_eq!(again, "another attribute has the same name");
     }
 
     #[test]

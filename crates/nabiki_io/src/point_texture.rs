@@ -41,7 +41,8 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
 
 /// Bytes that the positions of all vertices take until they are written.
 pub(crate) fn held_bytes(export: &Export<'_>, half_width: Option<f32>) -> u64 {
-    vertices(export, half_width) * u64::from(export.frames) * size_of::<Vec3>() as u64
+    let all = vertices(export, half_width).saturating_mul(export.frames.into());
+    all.saturating_mul(size_of::<Vec3>() as u64)
 }
 
 fn vertices(export: &Export<'_>, half_width: Option<f32>) -> u64 {
@@ -85,10 +86,11 @@ impl<'a> PointTexture<'a> {
             text: PartFile::create(&text_path(path))?,
             name: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             half_width,
+            // At once: a list that grows is there twice when it moves.
+            vertices: Vec::with_capacity(layout.vertices * layout.frames),
             layout,
             gltf_from_file: gltf_from_file(&export),
             first: None,
-            vertices: Vec::new(),
             written: 0,
             room: Vec::new(),
             export,
@@ -200,7 +202,7 @@ fn write_texture(
     let attributes = LayerAttributes { comments: Some(comments.as_str().into()), ..LayerAttributes::default() };
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, channels);
     let image = Image::empty(ImageAttributes::new(IntegerBounds::from_dimensions(size))).with_layer(layer);
-    image.write().to_buffered(to).map_err(|e| match e {
+    image.write().non_parallel().to_buffered(to).map_err(|e| match e {
         exr::error::Error::Io(e) => e,
         e => io::Error::other(e.to_string()),
     })

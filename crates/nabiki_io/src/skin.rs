@@ -40,11 +40,32 @@ pub fn bends(path: &Path, groups: &[String], clip: &str) -> Result<bool> {
     Ok(false)
 }
 
-/// Whether the joints of a skin move against each other. `movers`: for each joint the moved nodes that carry it, which are itself and
-/// those above it. Joints that the same nodes carry go as a whole.
-pub(crate) fn move_apart(mut movers: impl Iterator<Item = Vec<usize>>) -> bool {
+/// Whether the joints of a skin move against each other. `movers`: for each joint the nearest node that moves it. Joints with the same
+/// one go as a whole.
+pub(crate) fn move_apart(mut movers: impl Iterator<Item = Option<usize>>) -> bool {
     let first = movers.next();
-    movers.any(|movers| first.as_ref() != Some(&movers))
+    movers.any(|mover| first != Some(mover))
+}
+
+/// The nearest node that moves each node: itself, or one above it. `parents`: the nodes above.
+pub(crate) fn movers(parents: &[Option<usize>], moves: impl Fn(usize) -> bool) -> Vec<Option<usize>> {
+    let mut movers = vec![None; parents.len()];
+    let mut known = vec![false; parents.len()];
+    let mut way = Vec::new();
+    for node in 0..parents.len() {
+        // Up to a node whose mover is known; a ring of nodes ends where it began.
+        let mut at = Some(node);
+        while let Some(node) = at.filter(|&node| !std::mem::replace(&mut known[node], true)) {
+            way.push(node);
+            at = parents[node];
+        }
+        let mut mover = at.and_then(|node| movers[node]);
+        while let Some(node) = way.pop() {
+            mover = if moves(node) { Some(node) } else { mover };
+            movers[node] = mover;
+        }
+    }
+    movers
 }
 
 /// Whether the distances between points of a cache change, by more than their rounding. Some of them tell.

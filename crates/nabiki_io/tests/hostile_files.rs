@@ -16,7 +16,7 @@ use std::path::Path;
 use hostile::{fbx, layers, meshes, motions};
 use nabiki_exchange::Budget;
 use nabiki_io::motion::{self, Axis, MotionSource};
-use nabiki_io::{Error, GroomFile, Placement, exchange, info, mesh};
+use nabiki_io::{Error, GroomFile, Placement, exchange, info, mesh, skin};
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]
@@ -46,6 +46,9 @@ fn read(path: &Path) {
     }
     if matches!(&*ending, "usda" | "usdc" | "abc" | "obj" | "ply" | "glb" | "gltf" | "fbx" | "tfxmesh") {
         if let Err(error) = mesh::import(path, &Placement::default(), &[]) {
+            refused(error);
+        }
+        if let Err(error) = skin::bends(path, &[], "") {
             refused(error);
         }
         let missing = ["no such group".to_owned()];

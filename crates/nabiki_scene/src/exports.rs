@@ -176,10 +176,9 @@ pub(crate) fn sink<'a>(
 ) -> Result<Box<dyn FrameSink + 'a>> {
     place::room(path, moving::least_bytes(path, &export, layer.is_some()), watch)?;
     let held = moving::held_bytes(path, &export, chains);
-    let begun = moving::sink(path, export, layer, chains)?;
     match memory::short_of(held) {
         Some(short) => Err(Error::refused(format!("{}: {short}; use fewer strands or fewer frames", path.display()))),
-        None => Ok(begun),
+        None => Ok(moving::sink(path, export, layer, chains)?),
     }
 }
 

@@ -3,8 +3,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use glam::Vec3;
 use nabiki::dynamics::Form;
 use nabiki::free_form::FreeMotion;
+use nabiki::solve::{Goal, Node, Search, Solver, Unknown, Wish, nodes_of};
 use nabiki_groom::style::Region;
 use nabiki_scene::{BuiltScene, Scene, Shown};
 
@@ -61,9 +63,57 @@ fn a_region_feels_a_share_of_single_fields() {
         scene(field).timeline().unwrap();
     }
     let refused = scene("fan[1]").timeline().err().unwrap().to_string();
-    let line =
-        "free.regions[0].fields[0].field = \"fan[1]\": there is no such field; there is wind, turbulence, fan[0]";
+    let line = "free.regions[0].fields[0].field = \"fan[1]\": no such field: use one of wind, turbulence, fan[0], or remove it";
     assert!(refused.contains(line), "{refused}");
+}
+
+/// A region keeps to the fields that it names when others are removed, and forgets one that is removed. A field that is off
+/// refuses nothing.
+#[test]
+fn regions_keep_to_their_fields_when_others_are_removed() {
+    let share = |field: &str| format!("{{ field = {field:?}, share = 0.5 }}");
+    let fan = "[[fan]]\nposition = [30, 0, 0]\ndirection = [-1, 0, 0]\n".repeat(3);
+    let text = format!(
+        "[motion]\nform = \"free\"\nframes = 9\n[hair]\nstrands = 8\n[turbulence]\n{fan}[[free.regions]]\nnear = [0, 0, 0]\n\
+         fields = [{}, {}, {}, {}, {}]",
+        share("fan[0]"),
+        share("fan[1]"),
+        share("fan[2]"),
+        share("turbulence"),
+        share("wind")
+    );
+    let scene = Scene::parse(&text, Path::new("s.toml"), &[]).unwrap();
+    let fewer = scene.with_setting("fan[1]", None).unwrap().with_setting("turbulence", None).unwrap();
+    let named: Vec<&str> = fewer.free.regions[0].fields.iter().map(|of| of.field.as_str()).collect();
+    assert_eq!(named, ["fan[0]", "fan[1]", "turbulence", "wind"]);
+    fewer.build(Shown::All).unwrap().timeline().unwrap();
+}
+
+/// Hair that feels a part of the wind, and less of the swirls, leads the solver to the wind that it was moved by.
+#[test]
+fn the_wind_of_hair_that_feels_a_share_of_it_is_found_again() {
+    const FRAMES: u32 = 20;
+    let truth = Vec3::new(-50.0, 10.0, 8.0);
+    let built = |wind: Vec3| {
+        let [x, y, z] = wind.to_array();
+        let text = format!(
+            "[motion]\nform = \"free\"\nframes = {FRAMES}\n[hair]\nstrands = 12\n[[force]]\nthrough = {FRAMES}\n\
+             vector = [{x}, {y}, {z}]\n[turbulence]\nstrength = 20\n[[free.regions]]\nnear = [0, 0, 12]\nwithin = 9\n\
+             fields = [{{ field = \"wind\", share = 0.5 }}, {{ field = \"turbulence\", share = 0.2 }}]"
+        );
+        Scene::parse(&text, Path::new("s.toml"), &[]).unwrap().build(Shown::All).unwrap()
+    };
+    let was = built(truth);
+    let mut timeline = was.timeline().unwrap();
+    let film = timeline.play();
+    let nodes = |s: usize| nodes_of(s as u32, was.strands().strand(s).len(), 0.3..=1.0);
+    let nodes: Vec<Node> = (0..was.strands().len()).flat_map(nodes).collect();
+    let places = nodes.iter().map(|of| film.strand(FRAMES, of.strand as usize)[of.node as usize]).collect();
+    let wish = Wish { frame: FRAMES, nodes, goal: Goal::Places(places), weight: 1.0 };
+    let problem = built(Vec3::new(-20.0, 0.0, 0.0)).problem(vec![Unknown::Vector(0)], vec![wish]);
+    let report = Solver::new(problem).unwrap().solve(&Search { near_cm: 0.01, ..Search::default() });
+    let found = report.answer.keyframes[0].vector;
+    assert!(found.distance(truth) < 1.0, "{found} for {truth}, {} cm left", report.after_cm);
 }
 
 #[test]

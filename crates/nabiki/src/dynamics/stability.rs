@@ -57,6 +57,9 @@ pub fn largest_gain(strands: &Strands, dynamics: &Dynamics) -> Result<f64, Setti
 /// # Errors
 /// As for [`Simulation::new`](super::Simulation::new), except settings out of range.
 pub fn check_field(strands: &Strands, dynamics: &Dynamics, field: &dyn Field) -> Result<(), SettingError> {
+    if let Form::Free(free) = &dynamics.form {
+        free.form.check_shares(field)?;
+    }
     if Stability::of(strands, dynamics)?.holds(field) {
         return Ok(());
     }

@@ -16,7 +16,7 @@ use super::{TRIANGLE_BYTES, VERTEX_BYTES, push_fan};
 use crate::error::{Error, Result};
 use crate::fbx_file::document::{Moved, name, number, vector};
 use crate::fbx_file::{Document, Outline, affine};
-use crate::skin::move_apart;
+use crate::skin::{move_apart, movers};
 use skin::{Bent, Skin};
 
 /// Polygons of more corners are cut as fans: to cut off their ears takes the square of that number.
@@ -112,6 +112,8 @@ pub(crate) fn each_bent(
 pub(crate) fn bends(bytes: &[u8], groups: &[String], clip: &str) -> Result<bool> {
     let document = Document::open(bytes)?;
     let moved = Moved::by(&document, document.stack(clip)?);
+    let parents: Vec<_> = document.scene.nodes.iter().map(|node| node.parent.as_deref().map(number)).collect();
+    let movers = movers(&parents, |node| moved.nodes[node]);
     let nodes = chosen(&document, groups)?.0;
     let meshes = nodes.iter().filter_map(|&node| document.scene.nodes[node].mesh.as_ref());
     Ok(meshes.into_iter().any(|mesh| {
@@ -119,14 +121,8 @@ pub(crate) fn bends(bytes: &[u8], groups: &[String], clip: &str) -> Result<bool>
         let clusters = mesh.skin_deformers.as_ref().first().map_or(&[][..], |skin| skin.clusters.as_ref());
         let joints = clusters.iter().filter_map(|cluster| cluster.bone_node.as_ref());
         shapes.any(|shape| moved.shapes[shape.element.typed_id as usize])
-            || move_apart(joints.map(|joint| movers_of(joint, &moved.nodes)))
+            || move_apart(joints.map(|joint| movers[number(joint)]))
     }))
-}
-
-/// Which moved nodes carry a joint: itself and those above it.
-fn movers_of(joint: &Node, moved: &[bool]) -> Vec<usize> {
-    let above = std::iter::successors(Some(joint), |node| node.parent.as_deref());
-    above.map(number).filter(|&node| moved[node]).collect()
 }
 
 /// The vertices of a mesh in an evaluated scene.

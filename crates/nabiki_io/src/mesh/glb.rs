@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::gltf_file::accessors::{Whole, numbers, whole_numbers};
 use crate::gltf_file::{Buffers, open, pose};
 use crate::motion::Clip;
-use crate::skin::move_apart;
+use crate::skin::{move_apart, movers};
 use skin::Skin;
 
 /// The triangles, and what of the meshes is left out or not obeyed, a phrase each. `folder`: where buffers in files of their own
@@ -155,19 +155,28 @@ pub(crate) fn bends(bytes: &[u8], folder: Option<&Path>, groups: &[String], clip
     each_part(&document, &buffers, groups, None, &mut |part| {
         nodes.push(part.node.index());
         let skin = part.node.skin().filter(|_| part.carriers.is_some());
-        skins.extend(skin.map(|skin| skin.joints().map(|joint| above(joint.index(), &parents)).collect::<Vec<_>>()));
+        skins.extend(skin.map(|skin| skin.index()));
         Ok(())
     })?;
-    let carries = |node| skins.iter().flatten().any(|joint: &Vec<usize>| joint.contains(&node));
-    let clip = Clip::read(&document, &buffers, clip, &|node| nodes.contains(&node) || carries(node))?;
-    let movers = |joint: &Vec<usize>| joint.iter().copied().filter(|&node| clip.moves([node])).collect();
-    Ok(nodes.iter().any(|&node| clip.morphs(node)) || skins.iter().any(|skin| move_apart(skin.iter().map(movers))))
-}
-
-/// A node and those above it.
-fn above(node: usize, parents: &[Option<usize>]) -> Vec<usize> {
-    // Of a tree no way up is longer than all its nodes: in a ring it ends there.
-    std::iter::successors(Some(node), |&node| parents[node]).take(parents.len()).collect()
+    nodes.sort_unstable();
+    skins.sort_unstable();
+    skins.dedup();
+    let joints = |skin: &gltf::Skin| skin.joints().map(|joint| joint.index()).collect::<Vec<_>>();
+    let skins: Vec<Vec<usize>> =
+        document.skins().filter(|skin| skins.contains(&skin.index())).map(|skin| joints(&skin)).collect();
+    let mut carries = vec![false; parents.len()];
+    for &joint in skins.iter().flatten() {
+        // Up to what is known to carry one.
+        let mut at = Some(joint);
+        while let Some(node) = at.filter(|&node| !std::mem::replace(&mut carries[node], true)) {
+            at = parents[node];
+        }
+    }
+    let wanted = |node| carries[node] || nodes.binary_search(&node).is_ok();
+    let clip = Clip::read(&document, &buffers, clip, &wanted)?;
+    let movers = movers(&parents, |node| clip.moves([node]));
+    let bent = |skin: &Vec<usize>| move_apart(skin.iter().map(|&joint| movers[joint]));
+    Ok(nodes.iter().any(|&node| clip.morphs(node)) || skins.iter().any(bent))
 }
 
 /// Goes through what the default scene shows, or of it what `groups` name: in the still pose, or as an animation has it.

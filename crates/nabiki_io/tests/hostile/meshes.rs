@@ -26,6 +26,43 @@ fn triangle() -> Vec<u8> {
     [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat()
 }
 
+/// A triangle on a skin whose joints hang one below the other. The first of them moves.
+fn deep_joints(count: usize) -> Vec<u8> {
+    let nodes: Vec<String> = (1..count).map(|below| format!(r#"{{"children":[{below}]}}"#)).collect();
+    let joints: Vec<String> = (0..count).map(|joint| joint.to_string()).collect();
+    let view = |at: usize, length: usize| format!(r#"{{"buffer":0,"byteOffset":{at},"byteLength":{length}}}"#);
+    let of = |view: usize, kind: u32, count: usize, shape: &str| {
+        format!(
+            r#"{{"bufferView":{view},"componentType":{kind},"count":{count},"type":"{shape}","min":[0,0,0],"max":[1,1,0]}}"#
+        )
+    };
+    let weights = [1.0f32, 0.0, 0.0, 0.0].repeat(3).iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let times = [0.0f32, 1.0].iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let ways = [0.0f32, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let binary = [triangle(), weights, times, ways, vec![0; 12]].concat();
+    let text = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,{count}]}}],"nodes":[{},{{}},{{"mesh":0,"skin":0}}],
+        "skins":[{{"joints":[{}]}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"WEIGHTS_0":1,"JOINTS_0":4}}}}]}}],
+        "animations":[{{"samplers":[{{"input":2,"output":3}}],"channels":[{{"sampler":0,"target":{{"node":0,"path":"translation"}}}}]}}],
+        "accessors":[{},{},{},{},{}],"bufferViews":[{},{},{},{},{}],"buffers":[{{"byteLength":{}}}]}}"#,
+        nodes.join(","),
+        joints.join(","),
+        of(0, 5126, 3, "VEC3"),
+        of(1, 5126, 3, "VEC4"),
+        of(2, 5126, 2, "SCALAR"),
+        of(3, 5126, 2, "VEC3"),
+        of(4, 5121, 3, "VEC4"),
+        view(0, 36),
+        view(36, 48),
+        view(84, 8),
+        view(92, 24),
+        view(116, 12),
+        binary.len()
+    );
+    glb(&text, &binary)
+}
+
 pub fn all() -> Vec<Made> {
     let mut made = Vec::new();
     let node = r#"{"mesh":0}"#;
@@ -58,6 +95,9 @@ pub fn all() -> Vec<Made> {
     made.push(("long_extremes.gltf", text.replacen(r#""min":[0,0,0]"#, &extremes, 1).into()));
     let nested = "[".repeat(1_000_000);
     made.push(("nested.gltf", text.replacen(r#""min":[0,0,0]"#, &format!(r#""min":{nested}"#), 1).into()));
+
+    // Joints one below the other, each of them of the skin.
+    made.push(("deep_joints.glb", deep_joints(30_000)));
 
     // Elements of nothing, and faces of bytes.
     let header = |elements: &str| format!("ply\nformat binary_little_endian 1.0\n{elements}end_header\n").into_bytes();

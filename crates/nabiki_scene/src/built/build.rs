@@ -67,7 +67,8 @@ fn build_about(
     let (mut bodies, mut aim_files, mut of_speed) = (Vec::new(), Vec::new(), 0.0);
     if scene.form == FormChoice::Free {
         let mean = mean_lengths(&groom.first);
-        let form = scene.free.resolved(&dynamics, mean);
+        let mut form = scene.free.resolved(&dynamics, mean);
+        form.regions.iter_mut().for_each(|region| region.fields.retain(|of| !scene.field.is_off(&of.field)));
         of_speed = carrying_force(&dynamics, mean.strand, form.settle.mean());
         let earth = earth_gravity(&dynamics, mean.strand).into();
         let known_files = known.iter().flat_map(|known| &known.aim_files);

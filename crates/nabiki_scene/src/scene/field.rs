@@ -109,6 +109,16 @@ impl FieldSettings {
         !force.is_empty() && wind.ease == Ease::Stepped && alone && local
     }
 
+    /// Whether this is the name of a field that a scene may have, but this one has not. A share in it changes nothing until it is
+    /// there again.
+    pub(crate) fn is_off(&self, name: &str) -> bool {
+        match name {
+            WIND => self.force.is_empty() && self.body_wind.is_none(),
+            "turbulence" => self.turbulence.is_none(),
+            _ => false,
+        }
+    }
+
     /// Refuses values out of range, a missing field, and tables without effect. `head_moves` is whether the head has a
     /// motion. `may_be_none` is whether the form of the motion allows no field.
     ///

@@ -86,6 +86,24 @@ impl FreeSettings {
         form
     }
 
+    /// Takes a field that is removed, such as `fan[1]`, out of the regions' shares, and numbers those after it anew.
+    pub(crate) fn forget_field(&mut self, removed: &str) {
+        let number = |name: &str| -> Option<(String, usize)> {
+            let (table, number) = name.strip_suffix(']')?.split_once('[')?;
+            Some((table.to_owned(), number.parse().ok()?))
+        };
+        let Some((table, gone)) = number(removed) else { return };
+        for region in &mut self.regions {
+            region.fields.retain(|of| of.field != removed);
+            for share in &mut region.fields {
+                match number(&share.field) {
+                    Some((of, i)) if of == table && i > gone => share.field = format!("{table}[{}]", i - 1),
+                    _ => {}
+                }
+            }
+        }
+    }
+
     /// Applies a solver's stiffness and settling where they differ from the scene's own, which were `was` to it.
     pub(crate) fn accept(&mut self, was: &FreeForm, stiffness: &Profile, settle: &Profile) {
         if *stiffness != was.stiffness {

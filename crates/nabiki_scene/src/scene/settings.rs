@@ -37,18 +37,20 @@ impl Scene {
     }
 
     /// The scene with another value of one setting, named as in a file: `motion.time_step`, `force[1].vector`. An index
-    /// one past the end appends to a list. Without a value, the key, table or entry of a list is removed. Ranges are
-    /// not checked; use [`check`](Self::check).
+    /// one past the end appends to a list. Without a value, the key, table or entry of a list is removed. Regions then
+    /// forget a field that is removed, and keep to those after it. Ranges are not checked; use [`check`](Self::check).
     ///
     /// # Errors
     /// No such setting, or a value of the wrong type.
     pub fn with_setting(&self, key: &str, value: Option<Value>) -> Result<Self, SceneError> {
         let (mut tree, mut origins) = (self.settings()?, self.origins.clone());
         origins.set_anew(key);
+        let removed = value.is_none().then_some(key);
         tree::put(&mut tree, key, value).map_err(|what| origins.error(&tree::short(key), Problem::Other(what)))?;
         match Self::of_tree(tree) {
             Ok(mut scene) => {
                 scene.field.own.clone_from(&self.field.own);
+                removed.into_iter().for_each(|key| scene.free.forget_field(key));
                 Ok(Self { text: self.text.clone(), origins, ..scene })
             }
             Err(refusal) => Err(Self::unreadable(refusal, &origins)),

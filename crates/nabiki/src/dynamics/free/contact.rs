@@ -134,14 +134,9 @@ fn skin(body: &Body, surface: Surface) -> Skin<'_> {
 
 impl PlacedBody {
     /// Body number `b` at the end of a step of a frame; `step` gives the step's number, from 1 on, and their count.
-    /// A ball that hair does not leave (head space, cm), and the most that a strand multiplies the margin by.
-    pub fn new(
-        b: usize,
-        body: &Body,
-        input: &FrameInput,
-        [step, steps]: [u32; 2],
-        (center, radius, times): (Vec3, f32, f32),
-    ) -> Self {
+    /// `reach`: a ball that hair does not leave (head space, cm), and the most that a strand multiplies the margin by.
+    pub fn new(b: usize, body: &Body, input: &FrameInput, [step, steps]: [u32; 2], reach: (Vec3, f32, f32)) -> Self {
+        let (center, radius, times) = reach;
         let [now, before] = input.head_from_body(b, body, [step, steps]);
         let part = 1.0 / steps as f32;
         let mut placed = Self {

@@ -180,8 +180,7 @@ impl<'a, 's> Stepped<'a, 's> {
     #[inline(always)]
     fn push_back(&self, state: &mut FreeState, row: &FreeRow, at: usize, by: [&PointRow; 2], work: &mut Work) {
         work.clear = Row([f32::INFINITY; LANES]);
-        let h = self.h;
-        let ([other, weight], push) = (by.map(|by| *by), row.push);
+        let (h, [other, weight], push) = (self.h, by.map(|by| *by), row.push);
         let Work { velocity, weight: at_rest, drag, .. } = *work;
         let (mut net, mut reach) = (PointRow::default(), Row::default());
         for lane in 0..LANES {

@@ -131,7 +131,9 @@ impl Runner {
             of_carriers: of_carriers as u64,
             hair: self.packed.identity(),
             carriers: carriers.map_or(0, |hair| hair.packed.identity()),
-            bodies: self.packed.bodies_identity(),
+            // Carriers may keep another distance from these than all hair that is here.
+            bodies: self.packed.bodies_identity()
+                ^ carriers.map_or(0, |hair| hair.packed.bodies_identity().rotate_left(1)),
             ..Header::default()
         }
     }

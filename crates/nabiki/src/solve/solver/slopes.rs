@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::Solver;
 use crate::dynamics::{Change, Crowds, Form, Moved, Points, Standing, tangents};
 use crate::error::SettingError;
-use crate::field::FieldSum;
 use crate::solve::gusts::WindTable;
 use crate::solve::linear::Normal;
+use crate::solve::more_wind::MoreWind;
 use crate::solve::unknowns::Unknown;
 
 impl Solver {
@@ -64,7 +64,7 @@ impl Solver {
                     return Ok((self.simulated(wind, None)?, by));
                 }
                 let more = surroundings.of_wind(Arc::new(WindTable::of(by_number.iter().map(|of| by * of[i]))))?;
-                let field = Arc::new(FieldSum::new(vec![field.clone(), more]));
+                let field = Arc::new(MoreWind { field: field.clone(), more });
                 Ok::<_, SettingError>((self.moved_in(field)?, by))
             };
             let (places, by) = moved(by).or_else(|_| moved(-by))?;

@@ -6,6 +6,7 @@ use super::{Damping, Solver};
 use crate::body::Body;
 use crate::dynamics::Form;
 use crate::obstacle::Reading;
+use crate::solve::Node;
 
 /// Why a wish is not met: the first of these reasons that applies. `Length` comes after a nail and a force if it
 /// explains less than half of the remaining distance.
@@ -91,17 +92,21 @@ impl Solver {
         (away_cm > TAUT * reach_cm).then_some(Stop::Length { away_cm, reach_cm })
     }
 
-    /// The bodies near a point (head space, cm) in the frame of a wish, each with its distance and the way out.
+    /// The bodies near a point (head space, cm) in the frame of a wish, each with its distance and the way out. The margin is that of
+    /// the strand that is kept farthest off.
     fn bodies<'a>(&'a self, wish: usize, point: DVec3) -> Vec<Beside<'a>> {
         let Form::Free(free) = &self.problem.dynamics.form else { return Vec::new() };
         let frame = self.problem.wishes[wish].frame;
         let head = self.problem.poses.get(frame as usize).copied().unwrap_or_default();
+        let strand = |node: &Node| self.problem.hair.strand(node.strand as usize);
+        let nodes = self.problem.wishes[wish].nodes.iter();
+        let times = nodes.map(|node| free.own(strand(node)).margin).fold(0.0, f64::max) as f32;
         let of_body = |body: &'a Body| {
             let head_from_body = body.head_from_body(frame, &head);
             let there = head_from_body.inverse().transform_point3(point.as_vec3());
             let Reading { distance, gradient, .. } = body.shape.obstacle().read(there, frame)?;
             let out = head_from_body.transform_vector3(gradient).as_dvec3();
-            Some(Beside { name: &body.name, distance, margin: body.contact.margin, out })
+            Some(Beside { name: &body.name, distance, margin: times * body.contact.margin, out })
         };
         free.bodies.iter().filter_map(of_body).collect()
     }

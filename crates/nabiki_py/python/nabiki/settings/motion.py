@@ -364,9 +364,9 @@ class Region(Table):
     """Hair that moves differently from the rest, such as a fringe that stays in the wind.
 
     A strand belongs to the region by its group, by an attribute of the hair or of the head's mesh, by a painted map,
-    by painted points, or if its root is near a point or line; with several of these, by all of them. Each factor
-    multiplies a setting of `[free]`: one number, or a list from root to tip. Where regions overlap, their factors
-    multiply.
+    by painted points, or if its root is near a point or line; with several of these, by all of them. Factors multiply
+    the settings of the scene. Where a factor may be a list, it runs from root to tip. Where regions overlap, their
+    factors multiply.
     """
 
     __slots__ = ()
@@ -542,8 +542,8 @@ class Region(Table):
 
     @property
     def gravity(self) -> float:
-        """Factor on `free.gravity`, for each strand as a whole. Hair at rest does not sag, whatever its weight. Number,
-        0 to 10; default: 1.
+        """Factor on `free.gravity`, for each strand as a whole. Hair at rest does not sag, whatever its weight. Factors
+        above 1 of all regions together may raise the number of steps per frame. Number, 0 to 10; default: 1.
         """
         value: float = self._get('gravity')
         return value
@@ -554,8 +554,8 @@ class Region(Table):
 
     @property
     def margin(self) -> float:
-        """Factor on the distance that hair keeps from the head and from bodies, `contact.margin`. Number, 0 to 10;
-        default: 1.
+        """Factor on the distance that hair keeps from the head and from bodies, `contact.margin`. That distance times
+        the factors above 1 of all regions, whether they overlap or not, is at most 5 cm. Number, 0 to 10; default: 1.
         """
         value: float = self._get('margin')
         return value

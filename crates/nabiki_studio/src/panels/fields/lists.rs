@@ -3,8 +3,7 @@
 use eframe::egui::{ComboBox, Ui};
 use toml::{Table, Value};
 
-use super::{Field, number_of, send};
-use crate::command::Command;
+use super::{Field, number_of};
 use crate::document::Phase;
 use crate::panels::Commands;
 use crate::panels::hands::Hands;
