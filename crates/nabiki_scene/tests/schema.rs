@@ -170,6 +170,8 @@ fn full(key: &str) -> Scene {
     put("body[0].mesh", if of_capsule { "" } else { "b.obj" }.into());
     put("aim[0].file", "pose.usda".into());
     put("free.regions[0].near", Value::Array(vec![0.0.into(); 3]));
+    let share = toml::from_str::<toml::Table>("field = \"turbulence\"\nshare = 0.3").unwrap();
+    put("free.regions[0].fields", Value::Array(vec![share.into()]));
     put("head.motion", toml::Table::new().into());
     put("picture.hair.colour", toml::from_str::<toml::Table>("melanin = { eumelanin = 1.0 }").unwrap().into());
     let of = |table: &Table, name: &str| table.settings.iter().any(|setting| key == format!("{name}.{}", setting.key));
