@@ -78,12 +78,13 @@ pub trait Field: Debug + Send + Sync {
         }
     }
 
-    /// Names of the parts that hair may feel more or less of; none for a field that all hair feels as a whole, see [`Region::fields`](crate::region::Region::fields).
+    /// Names of the parts that hair may feel more or less of, see [`Region::fields`](crate::region::Region::fields); none for
+    /// a field that all hair feels as a whole.
     fn parts(&self) -> &[String] {
         &[]
     }
 
-    /// The force at a point in a frame on a strand that feels each part as often as `share` says of its name.
+    /// The force at a point in a frame on a strand that feels each part times the `share` of its name.
     fn at_shared(&self, point: Vec3, frame: u32, _share: &dyn Fn(&str) -> f32) -> Vec3 {
         self.at(point, frame)
     }

@@ -133,12 +133,10 @@ def test_a_state_keeps_the_skin(form):
     for again in (live, fresh, rides):
         back = again.restore(state)
         assert back.number == 5 and numpy.array_equal(bits(back.points), bits(last.points))
-        assert again.state() == state
     for again in (branch, live, fresh, rides):
         assert numpy.array_equal(goes_on(again), wanted)
     # A state from before the skin was told knows of none.
     live.restore(before)
-    assert live.state() == before
     assert numpy.array_equal(film([live.step(head=HEAD[4]), live.step(head=HEAD[5])]), without)
 
 
