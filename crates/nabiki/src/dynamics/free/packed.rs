@@ -227,9 +227,9 @@ impl Packed {
             }
             for at in block.rows() {
                 let to = ends(&self.at_rest[at], &self.rows[at], &from);
-                for lane in 0..LANES {
+                for (lane, times) in times.into_iter().enumerate() {
                     let at_rest = body_from_head.transform_point3(Vec3::from(lane_of(&to, lane)));
-                    let (surface, clearance) = body.kept_from(at_rest, times[lane]);
+                    let (surface, clearance) = body.kept_from(at_rest, times);
                     kept.clearances[at].0[lane] = clearance;
                     kept.filled[at] |= u16::from(surface == Surface::Filled) << lane;
                 }
