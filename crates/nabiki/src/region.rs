@@ -86,8 +86,8 @@ settings! {
 settings! {
     /// How strongly the hair of a region feels one field.
     pub struct FieldShare where names_a_field {
-        /// The field: "wind" for `[[force]]`, `[gust]`, `[body_wind]` and `[flow]` together, "turbulence", or a table of
-        /// which there may be several with its number, from 0, such as "fan[0]".
+        /// The field: `wind` for `[[force]]`, `[gust]`, `[body_wind]` and `[flow]` together, `turbulence`, or a table of
+        /// which there may be several with its number, from 0, such as `fan[0]`.
         pub field: String = "turbulence".to_owned() => "Field", must "\"turbulence\"";
         /// Factor on its force. At 0, the hair does not feel it.
         pub share: f32 = 0.3 => "Share", must "0.3", least 0.0, most MOST;

@@ -582,8 +582,8 @@ class FieldShare(Table):
 
     @property
     def field(self) -> str:
-        """The field: "wind" for `[[force]]`, `[gust]`, `[body_wind]` and `[flow]` together, "turbulence", or a table of
-        which there may be several with its number, from 0, such as "fan[0]". Text; must be given.
+        """The field: `wind` for `[[force]]`, `[gust]`, `[body_wind]` and `[flow]` together, `turbulence`, or a table of
+        which there may be several with its number, from 0, such as `fan[0]`. Text; must be given.
         """
         value: str = self._get('field')
         return value
